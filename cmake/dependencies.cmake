@@ -1,0 +1,28 @@
+# Everything comes from Debian / Ubuntu packages by name: see jobscripts/install_packages.sh.
+set(MPI_CXX_SKIP_MPICXX TRUE)
+find_package(MPI 3.0 REQUIRED COMPONENTS C CXX)
+
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc>=3.15)
+pkg_check_modules(UDUNITS REQUIRED IMPORTED_TARGET udunits)
+
+# With serial HDF5 also installed FindHDF5 would take that one, and fail only at run time.
+set(HDF5_PREFER_PARALLEL TRUE)
+find_package(HDF5 1.10 REQUIRED COMPONENTS C)
+if(NOT HDF5_IS_PARALLEL)
+  message(FATAL_ERROR "HDF5 in ${HDF5_C_INCLUDE_DIRS} is serial; the parallel one is needed "
+                      "(Debian: libhdf5-openmpi-dev, or -DHDF5_C_COMPILER_EXECUTABLE=h5pcc)")
+endif()
+
+find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+find_package(yaml-cpp REQUIRED)
+if(NOT TARGET yaml-cpp::yaml-cpp)  # 0.7 exports yaml-cpp only
+  add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)
+endif()
+find_package(CLI11 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(pugixml REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(TIFF REQUIRED)
+find_path(STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)

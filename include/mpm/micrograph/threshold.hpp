@@ -1,0 +1,28 @@
+#pragma once
+/// The gray level that separates cell wall from void.
+
+#include <mpm/micrograph/image.hpp>
+#include <mpm/scene/scene.hpp>
+
+#include <span>
+
+namespace mpm::micrograph {
+
+/// A location is cell wall if its mean reaches the threshold, where walls are bright, or stays
+/// below it, where they are dark. The same threshold thus splits a picture into the same two parts.
+constexpr bool is_wall(double mean, double threshold, scene::Wall wall)
+{
+  return wall == scene::Wall::bright ? mean >= threshold : mean < threshold;
+}
+
+/// N. Otsu, IEEE Trans. Syst. Man Cybern. 9 (1979) 62: the level that makes the variance between
+/// the two classes greatest, over the pixels rounded to whole levels. The result t makes the
+/// classes `below t` and `t and above`; where no pixel lies between the classes, the middle of the
+/// gap, rounded down. Throws InputError for an image of one level.
+double otsu_threshold(std::span<const double> gray);
+
+/// The threshold that makes the fraction of wall among the locations nearest to `target`; halfway
+/// between the two means it separates. Throws InputError unless 0 < target < 1.
+double threshold_for_density(std::span<const double> means, double target, scene::Wall wall);
+
+}  // namespace mpm::micrograph

@@ -1,0 +1,44 @@
+#pragma once
+/// Scalars over time as CSV, a line at a time: what is on disk is whole lines at every moment.
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mpm::output {
+
+/// A column of history.csv; the header reads `name [unit]`.
+struct HistoryColumn {
+  std::string name;
+  std::string unit;
+};
+
+/// Rank 0 only. Throws FileError.
+class HistoryFile {
+ public:
+  HistoryFile(const std::filesystem::path& file, std::vector<HistoryColumn> columns);
+  void append(std::span<const double> row);  ///< one value per column, 12 digits; flushed
+
+ private:
+  void write_line(const std::string& line);
+
+  std::filesystem::path file_;
+  std::ofstream stream_;
+  std::size_t columns_;
+  std::uintmax_t whole_bytes_ = 0;  ///< of the lines that are on disk complete
+};
+
+/// A history as read back: columns by name without the unit.
+struct HistoryTable {
+  std::vector<HistoryColumn> columns;
+  std::vector<std::vector<double>> values;  ///< values[column][line]
+  const std::vector<double>& operator[](const std::string& name) const;  ///< throws InputError
+  bool has(const std::string& name) const;
+};
+/// Any comma-separated table with one header line. Throws InputError naming file and line.
+HistoryTable read_history(const std::filesystem::path& file);
+
+}  // namespace mpm::output

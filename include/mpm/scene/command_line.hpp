@@ -1,0 +1,34 @@
+#pragma once
+/// What the user asks of mpm_par on the command line.
+
+#include <mpm/scene/scene.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace mpm::scene {
+
+struct CommandLine {
+  std::filesystem::path scene;
+  std::optional<std::filesystem::path> output;  ///< --output
+  bool check = false;                           ///< --check: read, print the plan, run nothing
+  std::vector<std::string> overrides;           ///< --set
+  std::vector<std::string> petsc;               ///< options for PETSc with their values, in order
+};
+
+/// A question answered without a run (--help, --version, --input-reference): print on one rank and
+/// end with status 0.
+struct Answer {
+  std::string text;
+};
+
+/// `arguments` without the program's name. Throws InputError on wrong usage.
+std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::string>& arguments);
+
+/// Where the results go: --output, or results/NAME.
+std::filesystem::path results_folder(const CommandLine& command_line, const Scene& scene);
+
+}  // namespace mpm::scene

@@ -1,0 +1,92 @@
+#pragma once
+/// The words a scene file uses for each choice, in the order of the reference page.
+
+#include <mpm/scene/scene.hpp>
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mpm::scene {
+
+template <class Choice>
+struct Named {
+  Choice value;
+  std::string_view name;
+};
+
+/// Specialised below for each choice.
+template <class Choice>
+inline constexpr std::array<Named<Choice>, 0> names_of{};
+
+template <>
+inline constexpr auto names_of<Side> = std::to_array<Named<Side>>(
+    {{Side::left, "left"}, {Side::right, "right"}, {Side::bottom, "bottom"}, {Side::top, "top"}});
+template <>
+inline constexpr auto names_of<Plane> = std::to_array<Named<Plane>>({{Plane::strain, "strain"},
+                                                                     {Plane::stress, "stress"}});
+template <>
+inline constexpr auto names_of<Law> = std::to_array<Named<Law>>({{Law::isotropic, "isotropic"},
+                                                                 {Law::transversely_isotropic,
+                                                                  "transversely_isotropic"},
+                                                                 {Law::von_mises, "von_mises"},
+                                                                 {Law::rigid, "rigid"}});
+template <>
+inline constexpr auto names_of<StrainMeasure> = std::to_array<Named<StrainMeasure>>(
+    {{StrainMeasure::hencky, "hencky"}, {StrainMeasure::hypoelastic, "hypoelastic"}});
+template <>
+inline constexpr auto names_of<UniqueAxis> = std::to_array<Named<UniqueAxis>>(
+    {{UniqueAxis::out_of_plane, "out_of_plane"}, {UniqueAxis::in_plane, "in_plane"}});
+template <>
+inline constexpr auto names_of<Wall> = std::to_array<Named<Wall>>({{Wall::bright, "bright"},
+                                                                   {Wall::dark, "dark"}});
+template <>
+inline constexpr auto names_of<ShapeFunction> =
+    std::to_array<Named<ShapeFunction>>({{ShapeFunction::linear, "linear"},
+                                         {ShapeFunction::gimp, "gimp"},
+                                         {ShapeFunction::quadratic, "quadratic"}});
+template <>
+inline constexpr auto names_of<TransferScheme> =
+    std::to_array<Named<TransferScheme>>({{TransferScheme::flip, "flip"},
+                                          {TransferScheme::pic, "pic"},
+                                          {TransferScheme::apic, "apic"},
+                                          {TransferScheme::tpic, "tpic"}});
+template <>
+inline constexpr auto names_of<UpdateOrder> = std::to_array<Named<UpdateOrder>>(
+    {{UpdateOrder::musl, "musl"}, {UpdateOrder::usf, "usf"}, {UpdateOrder::usl, "usl"}});
+template <>
+inline constexpr auto names_of<Lateral> = std::to_array<Named<Lateral>>(
+    {{Lateral::rigid, "rigid"}, {Lateral::free, "free"}, {Lateral::symmetric, "symmetric"}});
+template <>
+inline constexpr auto names_of<Grip> = std::to_array<Named<Grip>>({{Grip::stick, "stick"},
+                                                                   {Grip::slip, "slip"}});
+template <>
+inline constexpr auto names_of<Field> =
+    std::to_array<Named<Field>>({{Field::velocity, "velocity"},
+                                 {Field::stress, "stress"},
+                                 {Field::von_mises, "von_mises"},
+                                 {Field::pressure, "pressure"},
+                                 {Field::plastic_strain, "plastic_strain"},
+                                 {Field::plastic_work, "plastic_work"},
+                                 {Field::material, "material"},
+                                 {Field::id, "id"},
+                                 {Field::rank, "rank"}});
+
+template <class Choice>
+std::string_view name_of(Choice choice)
+{
+  for (const auto& named : names_of<Choice>)
+    if (named.value == choice) return named.name;
+  return {};
+}
+
+template <class Choice>
+std::vector<std::string> all_names()
+{
+  std::vector<std::string> names;
+  for (const auto& named : names_of<Choice>) names.emplace_back(named.name);
+  return names;
+}
+
+}  // namespace mpm::scene

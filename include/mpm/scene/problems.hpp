@@ -1,0 +1,42 @@
+#pragma once
+/// Everything wrong with a scene, collected so that one run reports it all.
+
+#include <mpm/scene/document.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mpm::scene {
+
+class Problems {
+ public:
+  /// `path` is the key path concerned; `text` follows the place.
+  void add(const Place& place, const std::string& path, const std::string& text);
+
+  /// Whether a problem concerns this path or something below it.
+  bool concern(std::string_view path) const;
+
+  /// Throws InputError with one line each, in the order of the file, options last.
+  void throw_if_any() const;
+
+ private:
+  struct Problem {
+    Place place;
+    std::string path, text;
+  };
+  std::vector<Problem> found_;
+};
+
+/// What the scene gives at one key path.
+struct Given {
+  const Node& node;
+  std::string path;
+  Problems& problems;
+
+  /// `PATH is VALUE (REASON). REMEDY.`; returns false, so that a reader can return it.
+  bool refuse(const std::string& reason, const std::string& remedy = "") const;
+  Given item(std::size_t index) const;
+};
+
+}  // namespace mpm::scene

@@ -1,0 +1,192 @@
+#pragma once
+/// How a value of each type is read from the scene, written back and described.
+///
+/// Value<T>::read checks and stores; it returns false after reporting what is wrong.
+/// Value<T>::write returns the node that reads back as the same value.
+/// Value<T>::describe is the cell of the reference page.
+
+#include <mpm/core/bound.hpp>
+#include <mpm/core/nearest_name.hpp>
+#include <mpm/core/units.hpp>
+#include <mpm/scene/names.hpp>
+#include <mpm/scene/problems.hpp>
+
+#include <array>
+#include <concepts>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mpm::scene {
+
+/// What a row of the parameter lists says about the numbers it takes.
+struct Rule {
+  Quantity quantity = Quantity::number;
+  Bound bound{};
+  bool spread = false;  ///< one value may stand for all entries of an array
+};
+
+template <class T>
+struct Value;
+
+/// A map, or a list of maps, keeps what could be read of it, so that other checks go on; any other
+/// value is stored whole or not at all.
+template <class T>
+inline constexpr bool keeps_parts = false;
+template <class T>
+inline constexpr bool keeps_parts<std::optional<T>> = keeps_parts<T>;
+template <class T>
+inline constexpr bool keeps_parts<std::vector<T>> = keeps_parts<T>;
+
+/// One scalar; reports a list, a map or nothing. `wanted`: `a word`.
+bool is_scalar(const Given& given, const std::string& wanted, const std::string& remedy = "");
+/// `a`, `b` or `c`
+std::string alternatives(const std::vector<std::string>& names);
+
+template <>
+struct Value<double> {
+  static bool read(const Given& given, const Rule& rule, double& value);
+  static Node write(const double& value, const Rule& rule);
+  static std::string describe(const Rule& rule);
+};
+
+template <>
+struct Value<long> {
+  static bool read(const Given& given, const Rule& rule, long& value);
+  static Node write(const long& value, const Rule&) { return Node::of(std::to_string(value)); }
+  static std::string describe(const Rule& rule);
+};
+
+template <>
+struct Value<int> {
+  static bool read(const Given& given, const Rule& rule, int& value);
+  static Node write(const int& value, const Rule&) { return Node::of(std::to_string(value)); }
+  static std::string describe(const Rule& rule) { return Value<long>::describe(rule); }
+};
+
+template <>
+struct Value<bool> {
+  static bool read(const Given& given, const Rule& rule, bool& value);
+  static Node write(const bool& value, const Rule&) { return Node::of(value ? "true" : "false"); }
+  static std::string describe(const Rule&) { return "`true` or `false`"; }
+};
+
+template <>
+struct Value<std::string> {
+  static bool read(const Given& given, const Rule& rule, std::string& value);
+  static Node write(const std::string& value, const Rule&) { return Node::of_text(value); }
+  static std::string describe(const Rule&) { return "text"; }
+};
+
+template <>
+struct Value<std::filesystem::path> {
+  static bool read(const Given& given, const Rule& rule, std::filesystem::path& value);
+  static Node write(const std::filesystem::path& value, const Rule&)
+  {
+    return Node::of_text(value.string());
+  }
+  static std::string describe(const Rule&) { return "file, relative to the scene's folder"; }
+};
+
+template <class Choice>
+requires std::is_enum_v<Choice>
+struct Value<Choice> {
+  static bool read(const Given& given, const Rule&, Choice& value)
+  {
+    const std::vector<std::string> names = all_names<Choice>();
+    if (!is_scalar(given, "must be " + alternatives(names))) return false;
+    for (const auto& named : names_of<Choice>) {
+      if (named.name != given.node.scalar) continue;
+      value = named.value;
+      return true;
+    }
+    std::string near;
+    if (const auto name = nearest_name(given.node.scalar, names))
+      near = "; did you mean '" + *name + "'?";
+    return given.refuse("must be " + alternatives(names) + near);
+  }
+  static Node write(const Choice& value, const Rule&)
+  {
+    return Node::of(std::string(name_of(value)));
+  }
+  static std::string describe(const Rule&)
+  {
+    std::vector<std::string> names;
+    for (const std::string& name : all_names<Choice>()) names.push_back('`' + name + '`');
+    return alternatives(names);
+  }
+};
+
+template <class T>
+struct Value<std::optional<T>> {
+  static bool read(const Given& given, const Rule& rule, std::optional<T>& value)
+  {
+    T inner{};
+    const bool good = Value<T>::read(given, rule, inner);
+    if (good || keeps_parts<T>) value = std::move(inner);
+    return good;
+  }
+  static Node write(const std::optional<T>& value, const Rule& rule)
+  {
+    return value ? Value<T>::write(*value, rule) : Node{};
+  }
+  static std::string describe(const Rule& rule) { return Value<T>::describe(rule); }
+};
+
+template <class T, std::size_t N>
+struct Value<std::array<T, N>> {
+  static bool read(const Given& given, const Rule& rule, std::array<T, N>& values)
+  {
+    std::array<T, N> inner = values;
+    if (rule.spread && given.node.kind != Node::Kind::list) {
+      if (!Value<T>::read(given, rule, inner[0])) return false;
+      values.fill(inner[0]);
+      return true;
+    }
+    if (given.node.kind != Node::Kind::list || given.node.items.size() != N)
+      return given.refuse("must be " + words());
+    bool good = true;
+    for (std::size_t i = 0; i < N; ++i) good &= Value<T>::read(given.item(i), rule, inner[i]);
+    if (good) values = inner;
+    return good;
+  }
+  static Node write(const std::array<T, N>& values, const Rule& rule)
+  {
+    Node node;
+    node.kind = Node::Kind::list;
+    for (const T& value : values) node.items.push_back(Value<T>::write(value, rule));
+    return node;
+  }
+  static std::string describe(const Rule& rule)
+  {
+    return (rule.spread ? "one value or " : "") + words() + ": " + Value<T>::describe(rule);
+  }
+
+ private:
+  static std::string words() { return "a list of " + std::to_string(N); }
+};
+
+template <class T>
+struct Value<std::vector<T>> {
+  static bool read(const Given& given, const Rule& rule, std::vector<T>& values)
+  {
+    if (given.node.kind != Node::Kind::list) return given.refuse("must be a list");
+    std::vector<T> inner(given.node.items.size());
+    bool good = true;
+    for (std::size_t i = 0; i < inner.size(); ++i)
+      good &= Value<T>::read(given.item(i), rule, inner[i]);
+    if (good || keeps_parts<T>) values = std::move(inner);
+    return good;
+  }
+  static Node write(const std::vector<T>& values, const Rule& rule)
+  {
+    Node node;
+    node.kind = Node::Kind::list;
+    for (const T& value : values) node.items.push_back(Value<T>::write(value, rule));
+    return node;
+  }
+  static std::string describe(const Rule& rule) { return "a list: " + Value<T>::describe(rule); }
+};
+
+}  // namespace mpm::scene

@@ -1,0 +1,30 @@
+#pragma once
+#include <mpm/core/lanes.hpp>
+
+namespace mpm {
+
+/// Uniform generalised interpolation (uGIMP; Bardenhagen & Kober 2004, CMES 5:477): hat functions
+/// averaged over a particle domain of fixed half size l (in cells), 0 < l <= 1/2. Three nodes per
+/// axis, without branches: with t = max(0, r - (1 - l)) the part of the domain beyond node 1,
+/// w = {1 - r + q, r - 2q, q}, q = t^2 / (4l).
+struct Gimp {
+  static constexpr int support = 3;
+  double half_size;  ///< of a particle domain, in cells: 1 / (2 x particles per cell and direction)
+
+  double base_shift() const { return half_size; }
+
+  void weights(const Lanes& r, double inverse_h, Lanes (&w)[3], Lanes (&g)[3]) const
+  {
+    const Lanes t = stdx::max(r - (1.0 - half_size), Lanes(0.0));
+    const Lanes e = t * (0.5 / half_size);
+    const Lanes q = 0.5 * t * e;
+    w[0] = 1.0 - r + q;
+    w[1] = r - 2.0 * q;
+    w[2] = q;
+    g[0] = (e - 1.0) * inverse_h;
+    g[1] = (1.0 - 2.0 * e) * inverse_h;
+    g[2] = e * inverse_h;
+  }
+};
+
+}  // namespace mpm

@@ -1,0 +1,23 @@
+#pragma once
+#include <mpm/core/lanes.hpp>
+
+namespace mpm {
+
+/// Quadratic B-splines (Steffen, Kirby & Berzins 2008, IJNME 76:922): 3 nodes per axis.
+struct Quadratic {
+  static constexpr int support = 3;
+  static constexpr double base_shift() { return 0.5; }
+
+  static void weights(const Lanes& r, double inverse_h, Lanes (&w)[3], Lanes (&g)[3])
+  {
+    const Lanes a = 1.5 - r, b = r - 1.0, c = r - 0.5;  // r lies in [1/2, 3/2)
+    w[0] = 0.5 * a * a;
+    w[1] = 0.75 - b * b;
+    w[2] = 0.5 * c * c;
+    g[0] = -inverse_h * a;
+    g[1] = (-2.0 * inverse_h) * b;
+    g[2] = inverse_h * c;
+  }
+};
+
+}  // namespace mpm

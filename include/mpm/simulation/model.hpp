@@ -1,0 +1,61 @@
+#pragma once
+/// From a scene and its specimen to grid, bodies and conditions: the run before its first step.
+
+#include <mpm/conditions/rigid_wall.hpp>
+#include <mpm/micrograph/specimen.hpp>
+#include <mpm/parallel/decomposition.hpp>
+#include <mpm/scene/scene.hpp>
+#include <mpm/simulation/stepper.hpp>
+#include <mpm/transfer/transfer.hpp>
+
+namespace mpm {
+
+/// Piston, fixed edge and what their reactions are divided by.
+struct Apparatus {
+  RigidWall<2>* piston = nullptr;
+  RigidWall<2>* edge = nullptr;
+  std::array<RigidWall<2>*, 2> lateral{nullptr, nullptr};   ///< none where free
+  int axis = 0;
+  double length = 0;   ///< m, of the specimen along the axis (without the load cell)
+  double area = 0;     ///< m^2, reference cross-section
+  int load_cell_body = -1;
+};
+
+/// What does not depend on the rank.
+struct Layout {
+  GridGeometry<2> geometry;
+  std::array<double, 2> specimen_lower;   ///< m, where the lattice starts
+  std::array<double, 2> location_size;    ///< m
+  std::array<LocalIndex, 2> padding;      ///< cells left of and below the specimen
+  double particle_volume;                 ///< m^3
+  double largest_particle_mass;           ///< kg
+  double wave_speed;                      ///< m/s, of the stiffest body
+  double cfl;
+  double largest_speed;                   ///< m/s, piston or initial
+  /// Particles per cell layer along each axis, all bodies.
+  std::array<std::vector<double>, 2> layer_weights;
+  struct LoadCellBox { IndexBox<2> locations; double density_ratio; };
+  std::optional<LoadCellBox> load_cell;   ///< in locations from the specimen's lower left corner
+};
+
+Layout make_layout(const scene::Scene& scene, const micrograph::SpecimenModel& specimen);
+
+/// The rank's share of the bodies, and conditions. Bodies: one per deformable material that has
+/// particles, then the load cell.
+struct Model {
+  std::vector<Body<2>> bodies;
+  std::vector<std::unique_ptr<BoundaryCondition<2>>> conditions;
+  std::optional<Apparatus> apparatus;
+  std::unique_ptr<Transfer<2>> transfer;
+};
+
+Model make_model(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+                 const Layout& layout, const Decomposition<2>& decomposition);
+
+/// Law of a scene's material. A new law is one file and one line there.
+std::unique_ptr<Law<2>> make_law(const scene::Material& material, scene::Plane plane);
+
+double default_cfl(const scene::Numerics& numerics);
+UpdateOrderKind update_order_of(const scene::Scene& scene);
+
+}  // namespace mpm

@@ -1,0 +1,29 @@
+#pragma once
+/// A scene from first to last step.
+
+#include <mpm/micrograph/specimen.hpp>
+#include <mpm/scene/scene.hpp>
+#include <mpm/simulation/model.hpp>
+
+#include <mpi.h>
+
+#include <filesystem>
+#include <string>
+
+namespace mpm {
+
+/// What will run, what is left out, and what it will take: the text of --check.
+std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+                      const Layout& layout, int ranks);
+
+/// First time step, s, and the number of steps to the end at that length.
+double first_time_step(const Layout& layout);
+double end_time(const scene::Scene& scene, const micrograph::SpecimenModel& specimen);
+
+/// Runs the scene; writes history.csv, summary.json, the effective scene, snapshots and the picture
+/// of the specimen into `folder`. Collective. Throws on every rank or on none.
+void run_scene(MPI_Comm comm, const scene::Scene& scene,
+               const micrograph::SpecimenModel& specimen, const Layout& layout,
+               const std::filesystem::path& folder);
+
+}  // namespace mpm

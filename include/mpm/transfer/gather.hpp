@@ -1,0 +1,121 @@
+#pragma once
+/// From the grid to one block of particles.
+
+#include <mpm/transfer/stencil.hpp>
+
+namespace mpm {
+
+/// dv_i/dx_j at i + Dim * j, 1/s, of the grid's gradient velocity.
+template <int Dim, class Shape>
+inline void gather_gradient(const Stencil<Dim, Shape>& stencil, const NodeGrid<Dim>& grid,
+                            double* gradient)
+{
+  constexpr int n = Shape::support;
+  constexpr int width = NodeGrid<Dim>::velocity_width;
+  const SpilledWeights<Dim, n> w(stencil.weight), g(stencil.gradient);
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const double* node =
+        grid.gradient_velocity.data() + std::size_t(stencil.base[lane]) * width;
+    if constexpr (Dim == 2) {
+      // {vx, vy, vx, vy} times {g, g, w, w} along x, then {w, w, g, g} along y: both columns of
+      // the gradient in one register.
+      const std::size_t row = std::size_t(grid.stride(1)) * width;
+      Record<4> along_x[n], total = 0.0;
+      for (int a = 0; a < n; ++a)
+        along_x[a] = Record<4>([&](auto k) { return k < 2 ? g(0, a, lane) : w(0, a, lane); });
+      for (int b = 0; b < n; ++b) {
+        Record<4> sum = 0.0;
+        for (int a = 0; a < n; ++a)
+          sum += Record<4>(node + b * row + a * width, stdx::element_aligned) * along_x[a];
+        total +=
+            sum * Record<4>([&](auto k) { return k < 2 ? w(1, b, lane) : g(1, b, lane); });
+      }
+      for (int k = 0; k < 4; ++k) gradient[k * lane_count + lane] = total[k];
+    } else {
+      Record<4> column[3] = {0.0, 0.0, 0.0};
+      for (int c = 0; c < n; ++c) {
+        Record<4> gx = 0.0, gy = 0.0, plain = 0.0;
+        for (int b = 0; b < n; ++b) {
+          Record<4> row_gradient = 0.0, row = 0.0;
+          for (int a = 0; a < n; ++a) {
+            const Record<4> v(node + (std::size_t(c) * grid.stride(2) +
+                                      std::size_t(b) * grid.stride(1) + a) *
+                                         width,
+                              stdx::element_aligned);
+            row_gradient += v * g(0, a, lane);
+            row += v * w(0, a, lane);
+          }
+          gx += row_gradient * w(1, b, lane);
+          gy += row * g(1, b, lane);
+          plain += row * w(1, b, lane);
+        }
+        column[0] += gx * w(2, c, lane);
+        column[1] += gy * w(2, c, lane);
+        column[2] += plain * g(2, c, lane);
+      }
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) gradient[(i + 3 * j) * lane_count + lane] = column[j][i];
+    }
+  }
+}
+
+/// Sum w {v, dv} of the updated velocities; with `Affine` also C_ij = sum v_i c_j at i + Dim * j,
+/// c the affine weights.
+template <bool Affine, int Dim, class Shape>
+inline void gather_velocity(const Stencil<Dim, Shape>& stencil, const NodeGrid<Dim>& grid,
+                            const Lanes (&affine_weight)[Dim][Shape::support],
+                            Lanes (&velocity)[2 * Dim], Lanes (&affine)[Dim * Dim])
+{
+  constexpr int n = Shape::support;
+  constexpr int width = NodeGrid<Dim>::record_width;
+  using R = Record<width>;
+  const SpilledWeights<Dim, n> w(stencil.weight);
+  const SpilledWeights<Dim, n> c(affine_weight);
+  alignas(lane_alignment) double out[2 * Dim][lane_count];
+  alignas(lane_alignment) double out_affine[Dim * Dim][lane_count];
+  constexpr int layers = Dim == 3 ? n : 1;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const double* node = grid.updated.data() + std::size_t(stencil.base[lane]) * width;
+    R total = 0.0, total_affine[Dim];
+    for (R& t : total_affine) t = 0.0;
+    for (int k = 0; k < layers; ++k) {
+      R layer = 0.0, layer_x = 0.0, layer_y = 0.0;
+      for (int b = 0; b < n; ++b) {
+        R row = 0.0, row_x = 0.0;
+        for (int a = 0; a < n; ++a) {
+          std::size_t at = std::size_t(b) * grid.stride(1) + a;
+          if constexpr (Dim == 3) at += std::size_t(k) * grid.stride(2);
+          const R value(node + at * width, stdx::element_aligned);
+          row += value * w(0, a, lane);
+          if constexpr (Affine) row_x += value * c(0, a, lane);
+        }
+        layer += row * w(1, b, lane);
+        if constexpr (Affine) {
+          layer_x += row_x * w(1, b, lane);
+          layer_y += row * c(1, b, lane);
+        }
+      }
+      if constexpr (Dim == 3) {
+        total += layer * w(2, k, lane);
+        if constexpr (Affine) {
+          total_affine[0] += layer_x * w(2, k, lane);
+          total_affine[1] += layer_y * w(2, k, lane);
+          total_affine[2] += layer * c(2, k, lane);
+        }
+      } else {
+        total = layer;
+        total_affine[0] = layer_x;
+        total_affine[1] = layer_y;
+      }
+    }
+    for (int k = 0; k < 2 * Dim; ++k) out[k][lane] = total[k];
+    if constexpr (Affine)
+      for (int j = 0; j < Dim; ++j)
+        for (int i = 0; i < Dim; ++i) out_affine[i + Dim * j][lane] = total_affine[j][i];
+  }
+  for (int k = 0; k < 2 * Dim; ++k) velocity[k] = load(out[k]);
+  if constexpr (Affine)
+    for (int k = 0; k < Dim * Dim; ++k) affine[k] = load(out_affine[k]);
+}
+
+}  // namespace mpm

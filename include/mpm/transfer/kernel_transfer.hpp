@@ -1,0 +1,240 @@
+#pragma once
+/// The passes, compiled per dimension, shape function and scheme.
+
+#include <mpm/transfer/gather.hpp>
+#include <mpm/transfer/scatter.hpp>
+#include <mpm/transfer/scheme.hpp>
+#include <mpm/transfer/transfer.hpp>
+
+#include <algorithm>
+
+namespace mpm {
+
+/// What a pass does, in this order.
+struct PassContent {
+  bool gradient = false;   ///< velocity gradient at the old place, stress update
+  bool velocity = false;   ///< G2P of the velocity
+  bool move = false;
+  ScatterContent scatter;  ///< P2G at the new place
+};
+
+template <int Dim, class Shape, class Scheme>
+class KernelTransfer final : public Transfer<Dim> {
+  using Columns = MotionColumns<Dim, Scheme>;
+
+ public:
+  explicit KernelTransfer(Shape shape) : shape_(shape) {}
+
+  std::vector<Column> motion_columns(bool musl) const override { return Columns::columns(musl); }
+  int support() const override { return Shape::support; }
+
+  void first_nodes(const ParticleStore& particles, const NodeGrid<Dim>& grid,
+                   std::vector<LocalIndex>& nodes) const override
+  {
+    nodes.resize(std::size_t(particles.blocks()) * lane_count);
+    for (LocalIndex b = 0; b < particles.blocks(); ++b) {
+      Lanes x[Dim];
+      load_all(particles.motion().block(b), Columns::position, x);
+      const Stencil<Dim, Shape> stencil(x, grid, shape_);
+      for (int lane = 0; lane < lane_count; ++lane)
+        nodes[std::size_t(b) * lane_count + lane] = LocalIndex(stencil.base[lane]);
+    }
+    nodes.resize(particles.size());
+  }
+
+  void prime(Body<Dim>& body, NodeGrid<Dim>& grid, bool with_force) const override
+  {
+    if (with_force)
+      pass<PassContent{.scatter = {.mass = true, .momentum = true, .force = true}}>(body, grid, 0,
+                                                                                    nullptr);
+    else
+      pass<PassContent{.scatter = {.mass = true, .momentum = true}}>(body, grid, 0, nullptr);
+  }
+
+  void musl_velocity(Body<Dim>& body, NodeGrid<Dim>& grid) const override
+  {
+    pass<PassContent{.velocity = true, .scatter = {.remap = true}}>(body, grid, 0, nullptr);
+  }
+
+  MoveOutcome<Dim> musl_stress(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+                               const MoveBounds<Dim>& bounds) const override
+  {
+    return pass<PassContent{.gradient = true,
+                            .move = true,
+                            .scatter = {.mass = true, .momentum = true, .force = true}}>(
+        body, grid, dt, &bounds);
+  }
+
+  void usf_stress(Body<Dim>& body, NodeGrid<Dim>& grid, double dt) const override
+  {
+    pass<PassContent{.gradient = true, .scatter = {.force = true}}>(body, grid, dt, nullptr);
+  }
+
+  MoveOutcome<Dim> usf_velocity(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+                                const MoveBounds<Dim>& bounds) const override
+  {
+    return pass<PassContent{
+        .velocity = true, .move = true, .scatter = {.mass = true, .momentum = true}}>(
+        body, grid, dt, &bounds);
+  }
+
+  MoveOutcome<Dim> usl(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+                       const MoveBounds<Dim>& bounds) const override
+  {
+    return pass<PassContent{.gradient = true,
+                            .velocity = true,
+                            .move = true,
+                            .scatter = {.mass = true, .momentum = true, .force = true}}>(
+        body, grid, dt, &bounds);
+  }
+
+ private:
+  /// Blocks whose gradients and stresses lie in the first-level cache together.
+  static constexpr int chunk = std::max(1, 128 / lane_count);
+
+  template <int N>
+  static void load_all(const double* block, int column, Lanes (&values)[N])
+  {
+    for (int k = 0; k < N; ++k) values[k] = load(block + (column + k) * lane_count);
+  }
+  template <int N>
+  static void store_all(const Lanes (&values)[N], double* block, int column)
+  {
+    for (int k = 0; k < N; ++k) store(values[k], block + (column + k) * lane_count);
+  }
+
+  template <PassContent Content>
+  MoveOutcome<Dim> pass(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+                        const MoveBounds<Dim>* bounds) const
+  {
+    constexpr int stress_width = symmetric_components<Dim> * lane_count;
+    constexpr int gradient_width = Dim * Dim * lane_count;
+    alignas(lane_alignment) double gradient[chunk * gradient_width];
+    alignas(lane_alignment) double force_stress[chunk * stress_width];
+
+    MoveOutcome<Dim> outcome;
+    Lanes largest_speed = 0.0;
+    Scatter<Dim, Shape, Content.scatter> scatter(grid);
+    ParticleStore& particles = body.particles;
+    for (LocalIndex first = 0; first < particles.blocks(); first += chunk) {
+      const int blocks = std::min(chunk, int(particles.blocks() - first));
+      double* state = particles.state().block(first);
+      if constexpr (Content.gradient) {
+        for (int k = 0; k < blocks; ++k) {
+          Lanes x[Dim];
+          load_all(particles.motion().block(first + k), Columns::position, x);
+          gather_gradient(Stencil<Dim, Shape>(x, grid, shape_), grid,
+                          gradient + k * gradient_width);
+        }
+        body.law->update(state, blocks, gradient, dt, force_stress);
+      } else if constexpr (Content.scatter.force) {
+        body.law->force_stress(state, blocks, force_stress);
+      }
+      for (int k = 0; k < blocks; ++k)
+        move_and_scatter<Content>(particles, first + k, grid, dt, bounds,
+                                  force_stress + k * stress_width, scatter, largest_speed,
+                                  outcome);
+    }
+    outcome.largest_speed = stdx::hmax(largest_speed);
+    return outcome;
+  }
+
+  template <PassContent Content>
+  void move_and_scatter(ParticleStore& particles, LocalIndex block, NodeGrid<Dim>& grid, double dt,
+                        const MoveBounds<Dim>* bounds, const double* force_stress,
+                        Scatter<Dim, Shape, Content.scatter>& scatter, Lanes& largest_speed,
+                        MoveOutcome<Dim>& outcome) const
+  {
+    constexpr bool needs_affine =
+        Scheme::affine && (Content.scatter.momentum || Content.scatter.remap);
+    double* motion = particles.motion().block(block);
+    Lanes x[Dim], v[Dim], u[Dim], affine[Dim * Dim];
+    load_all(motion, Columns::position, x);
+    const Lanes mass = load(motion + Columns::mass * lane_count);
+
+    if constexpr (Content.velocity) {
+      Stencil<Dim, Shape> stencil(x, grid, shape_);
+      Lanes affine_weight[Dim][Shape::support];
+      if constexpr (Scheme::affine) {
+        stencil.measure_offsets(grid);
+        if constexpr (Scheme::shape_gradient)
+          std::copy_n(&stencil.gradient[0][0], Dim * Shape::support, &affine_weight[0][0]);
+        else
+          stencil.affine_weights(affine_weight);
+      }
+      Lanes gathered[2 * Dim];
+      gather_velocity<Scheme::affine>(stencil, grid, affine_weight, gathered, affine);
+      if constexpr (Scheme::increments) load_all(motion, Columns::velocity, v);
+      for (int d = 0; d < Dim; ++d) {
+        u[d] = gathered[d];
+        v[d] = Scheme::increments ? v[d] + gathered[Dim + d] : gathered[d];
+      }
+      store_all(v, motion, Columns::velocity);
+      if constexpr (Scheme::affine) store_all(affine, motion, Columns::affine);
+      if constexpr (!Content.move) {
+        store_all(u, motion, Columns::grid_velocity);
+        Lanes momentum[Dim];
+        for (int d = 0; d < Dim; ++d) momentum[d] = mass * v[d];
+        if constexpr (needs_affine)
+          for (Lanes& a : affine) a *= mass;
+        scatter.template add<needs_affine>(stencil, mass, momentum, force_stress, affine);
+        return;
+      }
+    } else if constexpr (Content.scatter.momentum) {
+      load_all(motion, Columns::velocity, v);
+    } else {
+      for (Lanes& component : v) component = 0.0;
+    }
+
+    if constexpr (Content.move) {
+      if constexpr (!Content.velocity) load_all(motion, Columns::grid_velocity, u);
+      LaneMask home(true), reach(true);
+      for (int d = 0; d < Dim; ++d) {
+        largest_speed = stdx::max(largest_speed, stdx::abs(u[d]));
+        x[d] += dt * u[d];
+        home = home && x[d] >= bounds->home_lower[d] && x[d] < bounds->home_upper[d];
+        reach = reach && x[d] >= bounds->reach_lower[d] && x[d] < bounds->reach_upper[d];
+      }
+      if (!stdx::all_of(reach)) [[unlikely]]
+        report_lost(particles, block, reach, v, *bounds, x, outcome);
+      if (!stdx::all_of(home)) outcome.blocks_with_leavers.push_back(block);
+      store_all(x, motion, Columns::position);
+    }
+
+    Stencil<Dim, Shape> stencil(x, grid, shape_);
+    Lanes momentum[Dim];
+    for (int d = 0; d < Dim; ++d) momentum[d] = mass * v[d];
+    if constexpr (needs_affine) {
+      stencil.measure_offsets(grid);
+      if constexpr (!Content.velocity) load_all(motion, Columns::affine, affine);
+      for (Lanes& a : affine) a *= mass;
+    }
+    scatter.template add<needs_affine>(stencil, mass, momentum, force_stress, affine);
+  }
+
+  /// Notes the first lost particle and puts all lost ones where memory is valid; the run ends with
+  /// this step.
+  void report_lost(const ParticleStore& particles, LocalIndex block, const LaneMask& reach,
+                   const Lanes (&v)[Dim], const MoveBounds<Dim>& bounds, Lanes (&x)[Dim],
+                   MoveOutcome<Dim>& outcome) const
+  {
+    for (int lane = 0; lane < lane_count; ++lane) {
+      if (reach[lane]) continue;
+      const LocalIndex particle = block * lane_count + lane;
+      if (!outcome.lost && particle < particles.size()) {
+        outcome.lost.emplace();
+        outcome.lost->id = particles.ids()[particle];
+        for (int d = 0; d < Dim; ++d) {
+          outcome.lost->position[d] = x[d][lane];
+          outcome.lost->velocity[d] = v[d][lane];
+        }
+      }
+      for (int d = 0; d < Dim; ++d)
+        x[d][lane] = 0.5 * (bounds.home_lower[d] + bounds.home_upper[d]);
+    }
+  }
+
+  Shape shape_;
+};
+
+}  // namespace mpm

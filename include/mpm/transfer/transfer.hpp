@@ -1,0 +1,78 @@
+#pragma once
+/// The passes over the particles of which the update orders are made.
+
+#include <mpm/grid/node_grid.hpp>
+#include <mpm/materials/law.hpp>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace mpm {
+
+enum class ShapeKind { linear, gimp, quadratic };
+enum class SchemeKind { flip, pic, apic, tpic };
+
+/// A particle that went where this rank's nodes do not reach, or that is no longer a number.
+template <int Dim>
+struct LostParticle {
+  GlobalIndex id;
+  Vec<Dim> position = Vec<Dim>::Zero();   ///< m
+  Vec<Dim> velocity = Vec<Dim>::Zero();   ///< m/s
+};
+
+/// What a pass that moves particles found out on the way.
+template <int Dim>
+struct MoveOutcome {
+  double largest_speed = 0;                    ///< m/s, largest component of a grid velocity
+  std::vector<LocalIndex> blocks_with_leavers; ///< blocks that hold a particle outside `home`
+  std::optional<LostParticle<Dim>> lost;
+};
+
+/// Bounds that a moving pass compares positions with.
+template <int Dim>
+struct MoveBounds {
+  Vec<Dim> home_lower, home_upper;    ///< m, cells that this rank owns
+  Vec<Dim> reach_lower, reach_upper;  ///< m, where stencils still lie on this rank's nodes
+};
+
+/// Textbook names: P2G, G2P. Each pass is compiled for one dimension, shape function and scheme;
+/// materials enter through Law. "Old place" and "new place" are before and after the move.
+template <int Dim>
+class Transfer {
+ public:
+  virtual ~Transfer() = default;
+
+  virtual std::vector<Column> motion_columns(bool musl) const = 0;
+  /// Nodes per axis of a stencil, and how far its first node may lie below the particle's cell.
+  virtual int support() const = 0;
+  /// First node of each particle's stencil, local numbering (for sorting).
+  virtual void first_nodes(const ParticleStore& particles, const NodeGrid<Dim>& grid,
+                           std::vector<LocalIndex>& nodes) const = 0;
+
+  /// P2G of mass, momentum and, where `with_force`, internal force. No state changes.
+  virtual void prime(Body<Dim>& body, NodeGrid<Dim>& grid, bool with_force) const = 0;
+
+  // MUSL, two passes.
+  /// G2P of the velocity at the old place, and its momentum back to the same nodes.
+  virtual void musl_velocity(Body<Dim>& body, NodeGrid<Dim>& grid) const = 0;
+  /// Velocity gradient at the old place, stress, move; P2G of mass, momentum, force at the new.
+  virtual MoveOutcome<Dim> musl_stress(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+                                       const MoveBounds<Dim>& bounds) const = 0;
+  // USF, two passes.
+  /// Velocity gradient, stress, P2G of the force.
+  virtual void usf_stress(Body<Dim>& body, NodeGrid<Dim>& grid, double dt) const = 0;
+  /// G2P of the velocity, move; P2G of mass and momentum at the new place.
+  virtual MoveOutcome<Dim> usf_velocity(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+                                        const MoveBounds<Dim>& bounds) const = 0;
+  // USL, one pass.
+  virtual MoveOutcome<Dim> usl(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+                               const MoveBounds<Dim>& bounds) const = 0;
+};
+
+/// `particles_per_cell` per direction sets the particle domain of uniform GIMP.
+template <int Dim>
+std::unique_ptr<Transfer<Dim>> make_transfer(ShapeKind shape, SchemeKind scheme,
+                                             int particles_per_cell);
+
+}  // namespace mpm

@@ -1,0 +1,264 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mpm/analysis/compression_curve.hpp>
+#include <mpm/analysis/sampled_curve.hpp>
+#include <mpm/analysis/straight_line.hpp>
+#include <vector>
+
+namespace mpm::analysis {
+
+namespace {
+
+// The knee is looked for in strains up to 12 %: no wood model's plateau ends before.
+constexpr double knee_range = 0.12;
+constexpr int knee_bins = 240;
+constexpr double smallest_knee = 0.003;
+constexpr double largest_knee = 0.09;
+constexpr double significant_gain = 0.2;
+constexpr double softening = 0.5;  ///< a plateau is at most half as steep as the elastic line
+constexpr int curve_bins = 400;
+constexpr double tangent_reach = 0.03;
+constexpr std::size_t fewest_points = 12;
+
+void add_remark(std::string& remark, const std::string& text)
+{
+  if (!remark.empty()) remark += ' ';
+  remark += text;
+}
+
+std::optional<Line> fit_between(const SampledCurve& curve, double from, double to,
+                                std::size_t at_least)
+{
+  const Stretch part = between(curve, from, to);
+  if (part.strain.size() < at_least) return std::nullopt;
+  return fit_line(part.strain, part.stress);
+}
+
+double median(std::vector<double> values)
+{
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// From 0.1 to 0.45 of the knee strain; the start-up transient moves the window up, not past 0.8.
+struct Window {
+  double from;
+  double to;
+};
+Window elastic_window(double knee, double discard)
+{
+  const double from = std::max(0.10 * knee, discard);
+  const double to = std::max(0.45 * knee, std::min(from + 0.35 * knee, 0.8 * knee));
+  return {from, to};
+}
+
+std::optional<Line> fit_elastic(const SampledCurve& curve, const Window& window, double ringing)
+{
+  const Stretch part = between(curve, window.from, window.to);
+  if (part.strain.size() < 5) return std::nullopt;
+  return fit_line_under_ringing(part.strain, part.stress, ringing);
+}
+
+std::optional<Knee> softening_knee(const SampledCurve& fine, double end)
+{
+  const std::optional<Knee> knee =
+      fit_knee(fine.strain, fine.stress, smallest_knee, std::min(largest_knee, end));
+  if (!knee || knee->gain < significant_gain || knee->slope_before <= 0 ||
+      knee->slope_after > softening * knee->slope_before)
+    return std::nullopt;
+  return knee;
+}
+
+/// The straight part after the knee; its end is where the tangent starts to rise for good.
+struct Plateau {
+  Line line;
+  std::optional<double> end;
+};
+
+std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, double modulus)
+{
+  const std::vector<double> tangent = local_slope(binned, tangent_reach);
+  std::vector<double> on_plateau;
+  for (std::size_t i = 0; i < tangent.size(); ++i)
+    if (binned.strain[i] > knee + 0.02 && binned.strain[i] < knee + 0.12)
+      on_plateau.push_back(tangent[i]);
+  if (on_plateau.empty()) return std::nullopt;
+  const double base = median(on_plateau);
+  const double steep = std::max(2.5 * base, base + 0.03 * modulus);
+
+  Plateau plateau;
+  for (std::size_t i = 0; i < tangent.size() && !plateau.end; ++i)
+    if (binned.strain[i] > knee + 0.05 && tangent[i] > steep) plateau.end = binned.strain[i];
+  const double to = plateau.end ? *plateau.end - 0.03 : binned.strain.back();
+  if (to < knee + 0.04) return std::nullopt;
+  const std::optional<Line> line = fit_between(binned, knee + 0.02, to, 5);
+  if (!line) return std::nullopt;
+  plateau.line = *line;
+  return plateau;
+}
+
+/// Through the strains at which the curve first reaches two and four times the plateau's last stress.
+std::optional<Line> densification_line(const SampledCurve& binned, double plateau_end)
+{
+  const auto reaches = [&](double from, double stress) -> std::optional<double> {
+    for (std::size_t i = 0; i < binned.strain.size(); ++i)
+      if (binned.strain[i] >= from && binned.stress[i] >= stress) return binned.strain[i];
+    return std::nullopt;
+  };
+  const Stretch rest = between(binned, plateau_end, binned.strain.back());
+  if (rest.stress.empty() || rest.stress.front() <= 0) return std::nullopt;
+  const std::optional<double> twice = reaches(plateau_end, 2 * rest.stress.front());
+  const std::optional<double> four_times = reaches(plateau_end, 4 * rest.stress.front());
+  if (!twice || !four_times) return std::nullopt;
+  return fit_between(binned, *twice, *four_times, 2);
+}
+
+std::optional<CurvePoint> meeting(const Line& a, const Line& b)
+{
+  const std::optional<double> strain = meeting_point(a, b);
+  if (!strain || *strain <= 0) return std::nullopt;
+  return CurvePoint{*strain, b(*strain)};
+}
+
+/// Li, Magkiriadis & Harrigan 2006, J. Cell. Plast. 42:371: the strain up to which most energy is
+/// taken up per stress. Nothing if the efficiency still rises at the end of the curve.
+std::optional<CurvePoint> most_efficient(const SampledCurve& binned, double after)
+{
+  double energy = 0;
+  double last_strain = 0;
+  double last_stress = 0;
+  double best = 0;
+  std::optional<CurvePoint> point;
+  for (std::size_t i = 0; i < binned.strain.size(); ++i) {
+    const double strain = binned.strain[i];
+    const double stress = binned.stress[i];
+    energy += 0.5 * (stress + last_stress) * (strain - last_strain);
+    last_strain = strain;
+    last_stress = stress;
+    if (strain <= after || stress <= 0 || energy / stress <= best) continue;
+    best = energy / stress;
+    point = CurvePoint{strain, stress};
+  }
+  if (point && point->strain > 0.97 * last_strain) return std::nullopt;
+  return point;
+}
+
+CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& options)
+{
+  CompressionProperties found;
+  const double end = curve.strain.empty() ? 0 : curve.strain.back();
+  const SampledCurve fine = bin_average(curve, knee_range, knee_bins);
+  if (curve.strain.size() < fewest_points || fine.strain.size() < fewest_points) {
+    add_remark(found.remark, fmt::format("Too few points: {} up to {:.3g} % strain.",
+                                         curve.strain.size(), 100 * end));
+    return found;
+  }
+  const auto [lowest, highest] = std::minmax_element(curve.stress.begin(), curve.stress.end());
+  if (*lowest == *highest) {
+    add_remark(found.remark, "The stress is the same everywhere.");
+    return found;
+  }
+
+  const std::optional<Knee> knee = softening_knee(fine, end);
+  const Window window = elastic_window(knee ? knee->position : std::min(end, knee_range),
+                                      options.discard_strain);
+  const std::optional<Line> elastic = fit_elastic(curve, window, options.ringing_strain);
+  if (elastic && elastic->slope > 0) {
+    found.modulus = elastic->slope;
+    found.elastic_intercept = elastic->intercept;
+  } else {
+    add_remark(found.remark,
+               fmt::format("No modulus: no rising line between {:.2g} and {:.2g} % strain.",
+                           100 * window.from, 100 * window.to));
+  }
+  if (!knee) {
+    add_remark(found.remark, "No onset of buckling: no knee in the first 12 % strain.");
+    return found;
+  }
+
+  const SampledCurve binned = bin_average(curve, end, curve_bins);
+  found.energy_efficiency = most_efficient(binned, knee->position);
+  if (!found.modulus) return found;
+  const std::optional<Plateau> plateau = find_plateau(binned, knee->position, *found.modulus);
+  if (plateau) found.buckling = meeting(*elastic, plateau->line);
+  if (!found.buckling) {
+    add_remark(found.remark, "No onset of buckling: the curve ends before a plateau.");
+    return found;
+  }
+  if (const std::optional<Line> dense =
+          plateau->end ? densification_line(binned, *plateau->end) : std::nullopt)
+    found.densification = meeting(*dense, plateau->line);
+  if (!found.densification)
+    add_remark(found.remark,
+               "No onset of densification: the curve ends below four times the plateau's stress.");
+  return found;
+}
+
+/// Two standard deviations of what the resamples gave.
+class Spread {
+ public:
+  void add(double value)
+  {
+    ++count_;
+    const double difference = value - mean_;
+    mean_ += difference / count_;
+    squares_ += difference * (value - mean_);
+  }
+  double error() const { return count_ < 2 ? 0 : 2 * std::sqrt(squares_ / (count_ - 1)); }
+
+ private:
+  int count_ = 0;
+  double mean_ = 0;
+  double squares_ = 0;
+};
+
+struct PointSpread {
+  Spread strain;
+  Spread stress;
+  void add(const std::optional<CurvePoint>& point)
+  {
+    if (!point) return;
+    strain.add(point->strain);
+    stress.add(point->stress);
+  }
+  void report(std::optional<CurvePoint>& point) const
+  {
+    if (!point) return;
+    point->strain_error = strain.error();
+    point->stress_error = stress.error();
+  }
+};
+
+}  // namespace
+
+CompressionProperties compression_properties(std::span<const double> strain,
+                                             std::span<const double> stress,
+                                             const CurveOptions& options)
+{
+  const SampledCurve curve = loading_part(strain, stress, options.discard_strain);
+  CompressionProperties found = read_off(curve, options);
+  if (!found.modulus) return found;
+
+  Spread modulus;
+  PointSpread buckling;
+  PointSpread densification;
+  PointSpread energy_efficiency;
+  BlockBootstrap bootstrap(curve, options.ringing_strain);
+  for (int i = 0; i < options.resamples; ++i) {
+    const CompressionProperties again = read_off(bootstrap.resample(), options);
+    if (again.modulus) modulus.add(*again.modulus);
+    buckling.add(again.buckling);
+    densification.add(again.densification);
+    energy_efficiency.add(again.energy_efficiency);
+  }
+  found.modulus_error = modulus.error();
+  buckling.report(found.buckling);
+  densification.report(found.densification);
+  energy_efficiency.report(found.energy_efficiency);
+  return found;
+}
+
+}  // namespace mpm::analysis

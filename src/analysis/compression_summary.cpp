@@ -1,0 +1,34 @@
+#include <mpm/analysis/compression_summary.hpp>
+
+namespace mpm::analysis {
+
+namespace {
+
+void describe_point(const std::optional<CurvePoint>& point, const std::string& key,
+                    output::Summary& section)
+{
+  if (!point) {
+    section.set(key, std::optional<double>());
+    return;
+  }
+  output::Summary& place = section.section(key);
+  place.set("strain", point->strain);
+  place.set("strain_error", point->strain_error);
+  place.set("stress", point->stress);
+  place.set("stress_error", point->stress_error);
+}
+
+}  // namespace
+
+void describe(const CompressionProperties& properties, output::Summary& section)
+{
+  section.set("modulus", properties.modulus);
+  section.set("modulus_error", properties.modulus_error);
+  section.set("elastic_intercept", properties.elastic_intercept);
+  describe_point(properties.buckling, "buckling", section);
+  describe_point(properties.densification, "densification", section);
+  describe_point(properties.energy_efficiency, "energy_efficiency", section);
+  section.set("remark", properties.remark);
+}
+
+}  // namespace mpm::analysis

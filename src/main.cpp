@@ -1,0 +1,85 @@
+/// mpm_par: start, read, run, and say on one rank what went wrong.
+
+#include <mpm/core/error.hpp>
+#include <mpm/parallel/session.hpp>
+#include <mpm/scene/command_line.hpp>
+#include <mpm/scene/reader.hpp>
+#include <mpm/simulation/provenance.hpp>
+#include <mpm/simulation/run.hpp>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+
+namespace {
+
+using namespace mpm;
+
+void print_once(const std::string& text)
+{
+  if (rank_of(MPI_COMM_WORLD) == 0) fmt::print("{}", text);
+}
+
+void read_and_run(const scene::CommandLine& command_line)
+{
+  scene::Scene scene;
+  micrograph::SpecimenModel specimen;
+  Layout layout;
+  // Every rank reads: the same file gives the same scene, and an unreadable one stops all of them.
+  agree(MPI_COMM_WORLD, [&] {
+    scene = scene::read_scene(command_line.scene, command_line.overrides);
+    specimen = micrograph::build_specimen(scene);
+    layout = make_layout(scene, specimen);
+  });
+  print_once(plan_text(scene, specimen, layout, ranks_of(MPI_COMM_WORLD)));
+  if (command_line.check) return;
+  run_scene(MPI_COMM_WORLD, scene, specimen, layout,
+            scene::results_folder(command_line, scene));
+}
+
+int report(ExitStatus status, const char* what)
+{
+  if (rank_of(MPI_COMM_WORLD) == 0) {
+    std::fflush(stdout);
+    fmt::print(stderr, "{}\n", what);
+  }
+  return int(status);
+}
+
+int run(const std::variant<scene::CommandLine, scene::Answer>& asked)
+{
+  try {
+    if (const auto* answer = std::get_if<scene::Answer>(&asked))
+      print_once(answer->text);
+    else
+      read_and_run(std::get<scene::CommandLine>(asked));
+    return int(ExitStatus::done);
+  } catch (const InputError& error) {
+    return report(ExitStatus::bad_input, error.what());
+  } catch (const NumericalError& error) {
+    return report(ExitStatus::numerical_failure, error.what());
+  } catch (const FileError& error) {
+    return report(ExitStatus::file_failure, error.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  std::variant<scene::CommandLine, scene::Answer> asked;
+  std::string wrong_usage;
+  std::vector<std::string> petsc;
+  try {
+    asked = scene::parse_command_line({argv + 1, argv + argc});
+    if (const auto* command_line = std::get_if<scene::CommandLine>(&asked))
+      petsc = command_line->petsc;
+  } catch (const InputError& error) {
+    wrong_usage = error.what();
+  }
+  const Session session(argc, argv, petsc);
+  spdlog::set_pattern("%l: %v");
+  if (!wrong_usage.empty()) return report(ExitStatus::bad_input, wrong_usage.c_str());
+  return run(asked);
+}

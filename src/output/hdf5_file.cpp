@@ -1,0 +1,233 @@
+#include <fmt/core.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <mpm/core/error.hpp>
+#include <mpm/output/agreement.hpp>
+#include <mpm/output/hdf5_file.hpp>
+#include <mpm/output/replace_file.hpp>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+
+namespace mpm::output {
+
+namespace {
+
+static_assert(std::is_same_v<hid_t, std::int64_t>);
+
+constexpr hsize_t chunk_rows = 65536;  ///< 0.5 MB a column: large enough for gzip to be worth it
+
+/// An HDF5 identifier and the function that closes it.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Handle()
+  {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// What HDF5 says about its last failure: the innermost cause comes first.
+std::string last_hdf5_message()
+{
+  std::string text;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned depth, const H5E_error2_t* entry, void* out) -> herr_t {
+        auto& words = *static_cast<std::string*>(out);
+        if (depth < 2 && entry->desc != nullptr) {
+          if (!words.empty()) words += ": ";
+          words += entry->desc;
+        }
+        return 0;
+      },
+      &text);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.empty() ? "no reason given" : text;
+}
+
+template <class T>
+hid_t native_type()
+{
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+}
+
+/// The same bytes whatever machine wrote them.
+template <class T>
+hid_t stored_type()
+{
+  if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
+  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_STD_I64LE;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_STD_I32LE;
+}
+
+bool attach(hid_t object, const std::string& name, hid_t type, const void* value)
+{
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
+  return attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
+}
+
+bool attach(hid_t object, const std::string& name, const std::string& text)
+{
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, std::max<std::size_t>(text.size(), 1));
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return attach(object, name, type, text.c_str());
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(MPI_Comm comm, std::filesystem::path file, Compression compression,
+                   std::int64_t expected_bytes)
+    : comm_(comm),
+      file_(std::move(file)),
+      temporary_(temporary_name(file_)),
+      compression_(compression)
+{
+  on_rank_zero(comm_, [&] { reserve_room(temporary_, expected_bytes); });
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // its messages go into FileError instead
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_mpio(access, comm_, MPI_INFO_NULL);
+  H5Pset_all_coll_metadata_ops(access, true);
+  H5Pset_coll_metadata_write(access, true);
+  id_ = H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  agree(id_ < 0 ? "create the file" : "");
+  // Creating the file gave the room back.
+  on_rank_zero(comm_, [&] { reserve_room(temporary_, expected_bytes); });
+}
+
+Hdf5File::~Hdf5File()
+{
+  if (finished_) return;
+  // A file that cannot be written cannot be closed either, and HDF5 1.10 crashes when it ends after
+  // a failed close. Left open it is closed at the end of MPI, by then with room for the little that
+  // HDF5 still wants to write, because the file is emptied here before its name goes.
+  int rank = 0;
+  MPI_Comm_rank(comm_, &rank);
+  std::error_code ignored;
+  if (rank == 0) {
+    std::filesystem::resize_file(temporary_, 0, ignored);
+    std::filesystem::remove(temporary_, ignored);
+  }
+}
+
+void Hdf5File::create_group(const std::string& name)
+{
+  const Handle group(H5Gcreate2(id_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                     H5Gclose);
+  agree(group < 0 ? "create group " + name : "");
+}
+
+template <class T>
+void Hdf5File::write(const std::string& dataset, const std::string& unit, int components,
+                     std::span<const T> values)
+{
+  MPM_ASSERT(values.size() % std::size_t(components) == 0);
+  const std::int64_t mine = std::int64_t(values.size()) / components;
+  std::int64_t before = 0;  // MPI_Exscan leaves rank 0's result alone
+  std::int64_t all = 0;
+  MPI_Exscan(&mine, &before, 1, MPI_INT64_T, MPI_SUM, comm_);
+  MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, comm_);
+
+  const int rank = components == 1 ? 1 : 2;
+  const std::array<hsize_t, 2> total{hsize_t(all), hsize_t(components)};
+  const std::array<hsize_t, 2> local{hsize_t(mine), hsize_t(components)};
+  const std::array<hsize_t, 2> start{hsize_t(before), 0};
+  const Handle file_space(H5Screate_simple(rank, total.data(), nullptr), H5Sclose);
+  const Handle memory_space(H5Screate_simple(rank, local.data(), nullptr), H5Sclose);
+  if (mine > 0)
+    H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, local.data(), nullptr);
+  else  // takes part in the collective write all the same
+    (H5Sselect_none(file_space), H5Sselect_none(memory_space));
+
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+  if (compression_ == Compression::gzip && all > 0) {
+    const std::array<hsize_t, 2> chunk{std::min(total[0], chunk_rows), total[1]};
+    H5Pset_chunk(creation, rank, chunk.data());
+    H5Pset_shuffle(creation);
+    H5Pset_deflate(creation, 1);
+  }
+  const Handle target(H5Dcreate2(id_, dataset.c_str(), stored_type<T>(), file_space, H5P_DEFAULT,
+                                 creation, H5P_DEFAULT),
+                      H5Dclose);
+  agree(target < 0 ? "create dataset " + dataset : "");
+
+  if (all > 0) {  // HDF5 1.10 fails to write no rows to a dataset of none
+    const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+    H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
+    const bool written = H5Dwrite(target, native_type<T>(), memory_space, file_space, transfer,
+                                  values.data()) >= 0;
+    agree(written ? "" : "write dataset " + dataset);
+  }
+  agree(attach(target, "unit", unit) ? "" : "write the unit of dataset " + dataset);
+}
+
+void Hdf5File::write_rows(const std::string& dataset, const std::string& unit, int components,
+                          std::span<const double> values)
+{
+  write(dataset, unit, components, values);
+}
+
+void Hdf5File::write_rows(const std::string& dataset, const std::string& unit, int components,
+                          std::span<const std::int64_t> values)
+{
+  write(dataset, unit, components, values);
+}
+
+void Hdf5File::write_rows(const std::string& dataset, const std::string& unit, int components,
+                          std::span<const std::int32_t> values)
+{
+  write(dataset, unit, components, values);
+}
+
+void Hdf5File::set_attribute(const std::string& name, double value)
+{
+  MPI_Bcast(&value, 1, MPI_DOUBLE, 0, comm_);
+  set_root_attribute(name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void Hdf5File::set_attribute(const std::string& name, std::int64_t value)
+{
+  MPI_Bcast(&value, 1, MPI_INT64_T, 0, comm_);
+  set_root_attribute(name, H5T_NATIVE_INT64, &value);
+}
+
+void Hdf5File::set_root_attribute(const std::string& name, Identifier type, const void* value)
+{
+  const bool written = attach(id_, name, type, value);
+  agree(written ? "" : "write attribute " + name);
+}
+
+void Hdf5File::finish()
+{
+  set_attribute("complete", std::int64_t{1});
+  // Syncs what each rank wrote on its own node; rank 0 below can only sync its own.
+  agree(H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0 ? "sync the file" : "");
+  agree(H5Fclose(id_) < 0 ? "close the file" : "");
+  on_rank_zero(comm_, [this] { rename_when_synced(temporary_, file_); });
+  finished_ = true;
+}
+
+void Hdf5File::agree(const std::string& problem) const
+{
+  throw_if_any(comm_, problem.empty()
+                          ? problem
+                          : fmt::format("{}: cannot {} ({}). Check free space and permissions.",
+                                        file_.string(), problem, last_hdf5_message()));
+}
+
+}  // namespace mpm::output

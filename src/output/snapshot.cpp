@@ -1,0 +1,92 @@
+#include <fmt/core.h>
+
+#include <limits>
+#include <mpm/core/error.hpp>
+#include <mpm/output/agreement.hpp>
+#include <mpm/output/hdf5_file.hpp>
+#include <mpm/output/replace_file.hpp>
+#include <mpm/output/snapshot.hpp>
+#include <numeric>
+#include <span>
+#include <system_error>
+
+namespace mpm::output {
+
+namespace {
+
+/// The particles' numbers in the order of the file: what makes a cell of every point.
+template <class Index>
+void write_connectivity(Hdf5File& file, std::int64_t first, std::size_t count)
+{
+  std::vector<Index> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), Index(first));
+  file.write_rows("/particles/connectivity", "1", 1, std::span<const Index>(numbers));
+}
+
+/// At most: integers may be shorter, compressed arrays are.
+std::int64_t expected_bytes(const Snapshot& snapshot, std::int64_t particles)
+{
+  constexpr std::int64_t headers_per_array = 2048;
+  std::int64_t values = 1 + 3;  // connectivity, position
+  for (const ParticleField& field : snapshot.fields) values += field.components;
+  return 8 * values * particles + headers_per_array * std::int64_t(8 + snapshot.fields.size());
+}
+
+}  // namespace
+
+SnapshotSeries::SnapshotSeries(MPI_Comm comm, std::filesystem::path directory, std::string name,
+                               Options options)
+    : comm_(comm), directory_(std::move(directory)), name_(std::move(name)), options_(options)
+{
+  on_rank_zero(comm_, [this] {
+    make_directory(directory_ / "snapshots");
+    std::error_code ignored;  // usually there is none
+    std::filesystem::remove(directory_ / (name_ + ".xdmf"), ignored);
+  });
+}
+
+void SnapshotSeries::write(const Snapshot& snapshot)
+{
+  MPM_ASSERT(snapshot.position.size() % 3 == 0);
+  const std::size_t mine = snapshot.position.size() / 3;
+  XdmfGrid entry;
+  entry.file = fmt::format("snapshots/{:06}.h5", entries_.size());
+  entry.time = snapshot.time;
+  entry.strain = snapshot.strain;
+  std::int64_t before = 0;
+  const std::int64_t count = std::int64_t(mine);
+  MPI_Exscan(&count, &before, 1, MPI_INT64_T, MPI_SUM, comm_);
+  MPI_Allreduce(&count, &entry.particles, 1, MPI_INT64_T, MPI_SUM, comm_);
+  if (entry.particles > std::numeric_limits<std::int32_t>::max())
+    entry.connectivity = NumberType::int64;
+
+  Hdf5File file(comm_, directory_ / entry.file,
+                options_.compress ? Compression::gzip : Compression::none,
+                expected_bytes(snapshot, entry.particles));
+  file.set_attribute("time", snapshot.time);
+  file.set_attribute("strain", snapshot.strain);
+  file.set_attribute("step", snapshot.step);
+  file.create_group("/particles");
+  if (entry.connectivity == NumberType::int32)
+    write_connectivity<std::int32_t>(file, before, mine);
+  else
+    write_connectivity<std::int64_t>(file, before, mine);
+  file.write_rows("/particles/position", "m", 3, std::span<const double>(snapshot.position));
+  for (const ParticleField& field : snapshot.fields) {
+    std::visit(
+        [&](const auto& values) {
+          MPM_ASSERT(values.size() == mine * std::size_t(field.components));
+          file.write_rows("/particles/" + field.name, field.unit, field.components,
+                          std::span(values));
+        },
+        field.values);
+    // The alternatives of the variant stand in the order of NumberType.
+    entry.arrays.push_back({field.name, field.components, NumberType(field.values.index())});
+  }
+  file.finish();
+
+  entries_.push_back(std::move(entry));
+  on_rank_zero(comm_, [this] { write_xdmf(directory_ / (name_ + ".xdmf"), name_, entries_); });
+}
+
+}  // namespace mpm::output

@@ -1,0 +1,107 @@
+#include <mpm/core/error.hpp>
+#include <mpm/parallel/session.hpp>
+
+#include "petsc_check.hpp"
+
+#include <string>
+
+namespace mpm {
+
+Session::Session(int argc, char** argv, const std::vector<std::string>& petsc_options)
+{
+  MPI_Init(&argc, &argv);
+  PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr);
+  std::vector<std::string> words{argv[0]};
+  words.insert(words.end(), petsc_options.begin(), petsc_options.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  int count = int(words.size());
+  char** list = pointers.data();
+  petsc_check(PetscInitialize(&count, &list, nullptr, nullptr));
+}
+
+Session::~Session()
+{
+  PetscFinalize();
+  MPI_Finalize();
+}
+
+std::string Session::petsc_version()
+{
+  return std::to_string(PETSC_VERSION_MAJOR) + "." + std::to_string(PETSC_VERSION_MINOR) + "." +
+         std::to_string(PETSC_VERSION_SUBMINOR);
+}
+
+std::string Session::mpi_version()
+{
+  char text[MPI_MAX_LIBRARY_VERSION_STRING];
+  int length = 0;
+  MPI_Get_library_version(text, &length);
+  const std::string full(text, length);
+  return full.substr(0, full.find(','));
+}
+
+int rank_of(MPI_Comm comm)
+{
+  int rank;
+  MPI_Comm_rank(comm, &rank);
+  return rank;
+}
+
+int ranks_of(MPI_Comm comm)
+{
+  int ranks;
+  MPI_Comm_size(comm, &ranks);
+  return ranks;
+}
+
+void sum_over_ranks(MPI_Comm comm, std::span<double> values)
+{
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE, MPI_SUM, comm);
+}
+
+void sum_over_ranks(MPI_Comm comm, std::span<GlobalIndex> values)
+{
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_INT64_T, MPI_SUM, comm);
+}
+
+double largest_over_ranks(MPI_Comm comm, double value)
+{
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, comm);
+  return value;
+}
+
+void agree(MPI_Comm comm, const std::function<void()>& action)
+{
+  enum Kind : int { input, numerical, file, other, none };
+  int kind = none;
+  std::string text;
+  try {
+    action();
+  } catch (const InputError& error) {
+    kind = input, text = error.what();
+  } catch (const NumericalError& error) {
+    kind = numerical, text = error.what();
+  } catch (const FileError& error) {
+    kind = file, text = error.what();
+  } catch (const std::exception& error) {
+    kind = other, text = error.what();
+  }
+  int failed = kind == none ? ranks_of(comm) : rank_of(comm);
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MIN, comm);
+  if (failed == ranks_of(comm)) return;
+
+  int message[2] = {kind, int(text.size())};
+  MPI_Bcast(message, 2, MPI_INT, failed, comm);
+  text.resize(message[1]);
+  MPI_Bcast(text.data(), message[1], MPI_CHAR, failed, comm);
+  switch (message[0]) {
+    case input: throw InputError(text);
+    case numerical: throw NumericalError(text);
+    case file: throw FileError(text);
+    default: throw std::runtime_error(text);
+  }
+}
+
+}  // namespace mpm

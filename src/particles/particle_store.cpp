@@ -1,0 +1,120 @@
+#include <mpm/core/error.hpp>
+#include <mpm/particles/particle_store.hpp>
+
+#include <algorithm>
+
+namespace mpm {
+
+ColumnGroup::ColumnGroup(std::vector<Column> columns) : columns_(std::move(columns))
+{
+  for (const Column& column : columns_) width_ += column.components;
+}
+
+int ColumnGroup::find(const std::string& name) const
+{
+  int first = 0;
+  for (const Column& column : columns_) {
+    if (column.name == name) return first;
+    first += column.components;
+  }
+  return -1;
+}
+
+void ColumnGroup::resize(LocalIndex particles)
+{
+  const std::size_t blocks = (std::size_t(particles) + lane_count - 1) / lane_count;
+  data_.resize(blocks * width_ * lane_count, 0.0);
+}
+
+void ColumnGroup::copy_particle(LocalIndex from, LocalIndex to)
+{
+  for (int c = 0; c < width_; ++c) (*this)(c, to) = (*this)(c, from);
+}
+
+void ColumnGroup::permute(std::span<const LocalIndex> order)
+{
+  scratch_.resize(order.size());
+  for (int c = 0; c < width_; ++c) {
+    for (std::size_t k = 0; k < order.size(); ++k) scratch_[k] = (*this)(c, order[k]);
+    for (std::size_t k = 0; k < order.size(); ++k) (*this)(c, LocalIndex(k)) = scratch_[k];
+  }
+}
+
+ParticleStore::ParticleStore(std::vector<Column> motion, std::vector<Column> state,
+                             std::vector<std::string> zero_in_padding)
+    : motion_(std::move(motion)), state_(std::move(state))
+{
+  const auto mark = [&](const ColumnGroup& group, std::vector<int>& marked) {
+    for (const Column& column : group.columns())
+      if (std::ranges::find(zero_in_padding, column.name) != zero_in_padding.end())
+        for (int k = 0; k < column.components; ++k) marked.push_back(group.find(column.name) + k);
+  };
+  mark(motion_, zero_motion_);
+  mark(state_, zero_state_);
+}
+
+LocalIndex ParticleStore::add(GlobalIndex id)
+{
+  const LocalIndex particle = size();
+  ids_.push_back(id);
+  motion_.resize(size());
+  state_.resize(size());
+  for (int c = 0; c < motion_.width(); ++c) motion_(c, particle) = 0;
+  for (int c = 0; c < state_.width(); ++c) state_(c, particle) = 0;
+  return particle;
+}
+
+void ParticleStore::pack(LocalIndex particle, std::vector<double>& buffer) const
+{
+  buffer.push_back(std::bit_cast<double>(ids_[particle]));
+  for (int c = 0; c < motion_.width(); ++c) buffer.push_back(motion_(c, particle));
+  for (int c = 0; c < state_.width(); ++c) buffer.push_back(state_(c, particle));
+}
+
+void ParticleStore::unpack(std::span<const double> buffer)
+{
+  MPM_ASSERT(buffer.size() % packed_size() == 0);
+  const double* value = buffer.data();
+  for (std::size_t k = buffer.size() / packed_size(); k > 0; --k) {
+    const LocalIndex particle = add(std::bit_cast<GlobalIndex>(*value++));
+    for (int c = 0; c < motion_.width(); ++c) motion_(c, particle) = *value++;
+    for (int c = 0; c < state_.width(); ++c) state_(c, particle) = *value++;
+  }
+}
+
+void ParticleStore::erase(std::span<const LocalIndex> particles)
+{
+  LocalIndex last = size();
+  for (std::size_t k = particles.size(); k-- > 0;) {
+    const LocalIndex gap = particles[k];
+    --last;
+    if (gap == last) continue;
+    motion_.copy_particle(last, gap);
+    state_.copy_particle(last, gap);
+    ids_[gap] = ids_[last];
+  }
+  ids_.resize(last);
+  motion_.resize(last);
+  state_.resize(last);
+}
+
+void ParticleStore::permute(std::span<const LocalIndex> order)
+{
+  motion_.permute(order);
+  state_.permute(order);
+  std::vector<GlobalIndex> ids(ids_.size());
+  for (std::size_t k = 0; k < order.size(); ++k) ids[k] = ids_[order[k]];
+  ids_ = std::move(ids);
+}
+
+void ParticleStore::seal()
+{
+  for (LocalIndex lane = size(); lane < blocks() * lane_count; ++lane) {
+    motion_.copy_particle(size() - 1, lane);
+    state_.copy_particle(size() - 1, lane);
+    for (const int c : zero_motion_) motion_(c, lane) = 0;
+    for (const int c : zero_state_) state_(c, lane) = 0;
+  }
+}
+
+}  // namespace mpm

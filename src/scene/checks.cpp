@@ -1,0 +1,103 @@
+#include "checks.hpp"
+
+#include <fmt/format.h>
+
+namespace mpm::scene {
+
+void Checked::refuse(const std::string& path, const std::string& reason,
+                     const std::string& remedy) const
+{
+  const Node* node = find(root, path);
+  if (node != nullptr && sound(path)) Given{*node, path, problems}.refuse(reason, remedy);
+}
+
+void Checked::miss(const std::string& path, const std::string& reason,
+                   const std::string& remedy) const
+{
+  if (!sound(path)) return;
+  problems.add(place_of(root, path), path,
+               fmt::format("{} is missing ({}). {}.", path, reason, remedy));
+}
+
+void Checked::both_given(const std::string& path, const std::string& other) const
+{
+  if (!given(path) || !given(other)) return;
+  problems.add(place_of(root, path), path,
+               fmt::format("{} does not go with {} (given at {}). Keep one of them.", path, other,
+                           place_of(root, other).text()));
+}
+
+std::string Checked::material_path(std::size_t index) const
+{
+  return given("material") ? "material" : fmt::format("materials[{}]", index);
+}
+
+std::vector<std::string> Checked::material_names() const
+{
+  std::vector<std::string> names;
+  if (scene.materials.empty() && !given("material") && !given("materials"))
+    names.push_back(Material{}.name);
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    if (!sound(material_path(i) + ".name")) return {};
+    names.push_back(scene.materials[i].name);
+  }
+  return names;
+}
+
+void check_run(const Checked& checked)
+{
+  const SceneKeys& scene = checked.scene;
+  if (checked.given("name") && (scene.name.empty() || scene.name.front() == '.' ||
+                                scene.name.find('/') != std::string::npos))
+    checked.refuse("name", "it names a folder", "Use letters, digits, - and _");
+
+  checked.both_given("grid.spacing", "grid.cells");
+  checked.both_given("free_motion", "loading");
+  if (!checked.given("loading") && !checked.given("free_motion") && checked.sound("free_motion"))
+    checked.miss("loading", "what moves the specimen",
+                 "Add loading: {piston: right, speed: 10 m/s}, or free_motion: {end_time: 1 ms}");
+
+  const Numerics& numerics = scene.numerics;
+  if (numerics.update_order == UpdateOrder::usl &&
+      numerics.shape_function == ShapeFunction::linear && checked.sound("numerics.shape_function"))
+    checked.refuse("numerics.update_order",
+                   "with linear shape functions no time step is stable at free edges",
+                   "Use update_order: musl");
+
+  const std::string strains = "output.snapshots.strains";
+  const std::string times = "output.snapshots.times";
+  const SnapshotKeys& snapshots = scene.output_keys.snapshots;
+  if (checked.given("output.snapshots.count") && (snapshots.strains || snapshots.times))
+    checked.both_given("output.snapshots.count", snapshots.strains ? strains : times);
+  if (const auto* loading = std::get_if<Loading>(&scene.motion)) {
+    if (snapshots.strains && checked.sound("loading.strain")) {
+      for (std::size_t i = 0; i < snapshots.strains->size(); ++i) {
+        if ((*snapshots.strains)[i] > loading->strain)
+          checked.refuse(fmt::format("{}[{}]", strains, i),
+                         fmt::format("the run ends at loading.strain {}", loading->strain),
+                         "Lower it or raise loading.strain");
+      }
+    }
+  }
+  if (const auto* motion = std::get_if<FreeMotion>(&scene.motion)) {
+    if (snapshots.strains) checked.refuse(strains, "free motion has no strain", "Use times");
+    if (snapshots.times && checked.sound("free_motion")) {
+      for (std::size_t i = 0; i < snapshots.times->size(); ++i) {
+        if ((*snapshots.times)[i] > motion->end_time)
+          checked.refuse(fmt::format("{}[{}]", times, i),
+                         fmt::format("the run ends at free_motion.end_time {}",
+                                     in_readable_unit(motion->end_time, Quantity::time)),
+                         "Lower it or raise free_motion.end_time");
+      }
+    }
+  }
+  const std::vector<Field>& fields = scene.output_keys.fields;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (std::find(fields.begin(), fields.begin() + static_cast<long>(i), fields[i]) !=
+        fields.begin() + static_cast<long>(i))
+      checked.refuse(fmt::format("output.fields[{}]", i), "it is in the list already",
+                     "Remove one");
+  }
+}
+
+}  // namespace mpm::scene

@@ -1,0 +1,128 @@
+#include <mpm/core/error.hpp>
+#include <mpm/core/nearest_name.hpp>
+#include <mpm/scene/command_line.hpp>
+#include <mpm/scene/reader.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace mpm::scene {
+
+namespace {
+
+bool starts_option(const std::string& word)
+{
+  const bool negative_number =
+      word.size() > 1 && (std::isdigit(static_cast<unsigned char>(word[1])) || word[1] == '.');
+  return word.size() > 1 && word[0] == '-' && !negative_number;
+}
+
+struct Options {
+  CommandLine command_line;
+  bool reference = false;
+  CLI::App app{"Material point method: crushes a specimen read from a micrograph."};
+
+  Options()
+  {
+    app.name("mpm_par");
+    app.footer("Run in parallel: mpirun -n N mpm_par [options] scene.yaml [PETSc options]");
+    app.set_version_flag("--version", "mpm_par " MPM_VERSION);
+    app.add_option("scene", command_line.scene, "Scene file (YAML)");
+    app.add_flag("--check", command_line.check, "Read the scene, print the plan, run nothing");
+    app.add_option("-o,--output", command_line.output, "Folder of results (results/NAME)")
+        ->type_name("DIR");
+    app.add_option("--set", command_line.overrides,
+                   "Change a key of the scene for this run; may be repeated")
+        ->type_name("PATH=VALUE")
+        ->allow_extra_args(false);
+    app.add_flag("--input-reference", reference, "Print the reference of all keys");
+  }
+
+  std::vector<std::string> names() const
+  {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+  }
+};
+
+const std::vector<std::string> short_options{"-h", "-o"};
+
+/// Our words alone; PETSc's options and their values go to `petsc`.
+std::vector<std::string> without_petsc(const std::vector<std::string>& arguments,
+                                       const std::vector<std::string>& names,
+                                       std::vector<std::string>& petsc)
+{
+  std::vector<std::string> ours;
+  bool scene_seen = false;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
+    const auto take_next = [&](std::vector<std::string>& words) {
+      if (i + 1 < arguments.size()) words.push_back(arguments[++i]);
+    };
+    if (word.starts_with("--")) {
+      const std::string name = word.substr(0, word.find('='));
+      if (std::ranges::find(names, name) == names.end())
+        throw InputError(fmt::format("unknown option '{}' ({})", name, suggestion(name, names)));
+      ours.push_back(word);
+      if (word == "--set" || word == "--output") take_next(ours);
+    } else if (std::ranges::find(short_options, word) != short_options.end()) {
+      ours.push_back(word);
+      if (word == "-o") take_next(ours);
+    } else if (!starts_option(word)) {
+      if (scene_seen)
+        throw InputError(
+            fmt::format("'{}' is a second scene (one run is one scene). Put a list or "
+                        "a value with spaces in quotes.",
+                        word));
+      scene_seen = true;
+      ours.push_back(word);
+    } else if (!scene_seen) {
+      throw InputError(fmt::format(
+          "unknown option '{}' (before the scene). Put options for PETSc behind the scene.", word));
+    } else {
+      petsc.push_back(word);
+      if (i + 1 < arguments.size() && !starts_option(arguments[i + 1])) take_next(petsc);
+    }
+  }
+  return ours;
+}
+
+}  // namespace
+
+std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::string>& arguments)
+{
+  Options options;
+  std::vector<std::string> ours =
+      without_petsc(arguments, options.names(), options.command_line.petsc);
+  std::ranges::reverse(ours);  // the order the library takes words from the back in
+  try {
+    options.app.parse(ours);
+  } catch (const CLI::CallForHelp&) {
+    return Answer{options.app.help()};
+  } catch (const CLI::CallForVersion&) {
+    return Answer{"mpm_par " MPM_VERSION "\n"};
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}. See mpm_par --help.", error.what()));
+  }
+  if (options.reference) {
+    std::ostringstream page;
+    write_input_reference(page);
+    return Answer{page.str()};
+  }
+  if (options.command_line.scene.empty())
+    throw InputError("no scene named. Write mpm_par scene.yaml, or see mpm_par --help.");
+  return std::move(options.command_line);
+}
+
+std::filesystem::path results_folder(const CommandLine& command_line, const Scene& scene)
+{
+  return command_line.output.value_or(std::filesystem::path("results") / scene.name);
+}
+
+}  // namespace mpm::scene

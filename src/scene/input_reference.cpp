@@ -1,0 +1,72 @@
+#include <mpm/scene/reader.hpp>
+#include <mpm/scene/schema.hpp>
+
+#include <ostream>
+
+#include <fmt/format.h>
+
+namespace mpm::scene {
+
+namespace {
+
+constexpr std::string_view introduction = R"(# Input reference
+
+Written by `mpm_par --input-reference` from the lists that the program reads scenes with.
+
+A scene is a YAML file. The shortest one crushes a picture of a section:
+
+```yaml
+specimen:
+  micrograph: section.png     # path from the scene's folder
+  pixel_size: 2.3 um
+loading:
+  piston: right
+  speed: 10 m/s
+```
+
+- A value with a dimension carries its unit: `10.6 GPa`, `0.832 mm`, `1.5 g/cm^3`, `10 m/s`, `30 deg`.
+- A fraction is plain or in percent: `0.6` or `60 %`.
+- A key that is unknown, given twice or of no effect is an error, with file, line and column.
+- `--set path.to.key=value` changes a key for one run: `--set loading.speed='5 m/s'`,
+  `--set materials[0].density='1400 kg/m^3'`.
+- The folder of results holds the scene with every default filled in.
+)";
+
+template <class Owner>
+std::string default_of(const Parameter<Owner>& row)
+{
+  if (row.need == Need::required) return "**required**";
+  if (!row.default_text.empty()) return row.default_text;
+  const std::string text = one_line(row.write(Owner{}));
+  return text == "\"\"" ? "none" : "`" + text + "`";
+}
+
+template <class Owner>
+void write_section(std::ostream& out, std::string_view title)
+{
+  out << "\n## " << title << "\n\n| key | value | default | meaning |\n|---|---|---|---|\n";
+  for (const Parameter<Owner>& row : parameters<Owner>()) {
+    const std::string only =
+        row.condition.text.empty() ? "" : fmt::format(" ({} only)", row.condition.text);
+    out << fmt::format("| `{}` | {} | {} | {}{} |\n", row.key, row.type, default_of(row), row.help,
+                       only);
+  }
+}
+
+template <class... Owners>
+void write_sections(std::ostream& out)
+{
+  (write_section<Owners>(out, section<Owners>), ...);
+}
+
+}  // namespace
+
+void write_input_reference(std::ostream& out)
+{
+  out << introduction;
+  write_sections<SceneKeys, Material, Specimen, GrayBand, Window, Shape, Box, Disc, Polygon,
+                 Honeycomb, Grid, Numerics, Loading, LoadCell, FreeMotion, OutputKeys>(out);
+  write_section<SnapshotKeys>(out, snapshots_section);
+}
+
+}  // namespace mpm::scene

@@ -1,0 +1,52 @@
+#include <mpm/scene/parameter.hpp>
+
+#include <fmt/format.h>
+
+namespace mpm::scene {
+
+std::vector<std::string> check_keys(const Given& given, const std::vector<std::string>& known)
+{
+  std::vector<std::string> meant;
+  for (const Entry& entry : given.node.entries) {
+    const std::string path = joined(given.path, entry.key);
+    if (std::ranges::find(known, entry.key) == known.end()) {
+      const auto nearest = nearest_name(entry.key, known);
+      // Under the key it was meant for, so that nobody reports that one as missing.
+      given.problems.add(
+          entry.place, joined(given.path, nearest.value_or(entry.key)),
+          fmt::format("unknown key '{}' ({})", entry.key, suggestion(entry.key, known)));
+      meant.push_back(nearest.value_or(""));
+    } else if (const Entry* first = given.node.find(entry.key); first != &entry) {
+      given.problems.add(
+          entry.place, path,
+          fmt::format("{} is given twice (first at {}). Remove one.", path, first->place.text()));
+      meant.push_back(entry.key);
+    }
+  }
+  return meant;
+}
+
+void report_foreign(const Given& map, const Entry& entry, const std::string& belongs_to)
+{
+  const std::string path = joined(map.path, entry.key);
+  map.problems.add(entry.place, path,
+                   fmt::format("{} is {} (belongs to {} only). Remove it.", path,
+                               entry.value.shown(), belongs_to));
+}
+
+void report_missing(const Given& map, const std::string& key, const std::string& help,
+                    const std::string& type)
+{
+  const std::string path = joined(map.path, key);
+  map.problems.add(map.node.place, path,
+                   fmt::format("{} is missing ({}). Add it: {}.", path, help, type));
+}
+
+std::string link_to(std::string_view section)
+{
+  std::string anchor(section);
+  std::ranges::replace(anchor, ' ', '-');
+  return fmt::format("a map: [{}](#{})", section, anchor);
+}
+
+}  // namespace mpm::scene

@@ -1,0 +1,105 @@
+#include <mpm/core/error.hpp>
+#include <mpm/scene/reader.hpp>
+
+#include <algorithm>
+#include <ostream>
+
+#include "checks.hpp"
+#include <fmt/format.h>
+
+namespace mpm::scene {
+
+namespace {
+
+/// The cell wall of Nairn (2006), Wood and Fiber Science 38:576-591, for scenes without a material.
+Material cell_wall()
+{
+  Material material;
+  material.density = 1500;
+  material.youngs_modulus = 10.6e9;
+  material.poisson_ratio = 0.33;
+  material.yield_stress = 500e6;
+  return material;
+}
+
+void apply(Node& root, const std::vector<std::string>& overrides)
+{
+  std::vector<std::string> problems;
+  for (const std::string& assignment : overrides) {
+    try {
+      apply_override(root, assignment);
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+/// `count` values from 0 to `end`, in decimals somebody could have written; one is the end alone.
+std::vector<double> evenly(double end, int count)
+{
+  std::vector<double> values;
+  for (int i = count == 1 ? 1 : 0; i < std::max(count, 2) && count > 0; ++i) {
+    const int last = std::max(count - 1, 1);
+    const double value = end * i / last;
+    values.push_back(i == last ? end : std::stod(fmt::format("{:.12g}", value)));
+  }
+  return values;
+}
+
+Output filled_output(const OutputKeys& keys, const std::variant<Loading, FreeMotion>& motion)
+{
+  constexpr int snapshots = 7;
+  Output output = keys;
+  const int count = keys.snapshots.count.value_or(snapshots);
+  if (keys.snapshots.strains || keys.snapshots.times) {
+    output.snapshot_strains = keys.snapshots.strains.value_or(std::vector<double>{});
+    output.snapshot_times = keys.snapshots.times.value_or(std::vector<double>{});
+    std::ranges::sort(output.snapshot_strains);
+    std::ranges::sort(output.snapshot_times);
+  } else if (const auto* loading = std::get_if<Loading>(&motion)) {
+    output.snapshot_strains = evenly(loading->strain, count);
+  } else {
+    output.snapshot_times = evenly(std::get<FreeMotion>(motion).end_time, count);
+  }
+  return output;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides)
+{
+  to_si("1 m", Quantity::length);  // a missing table of units is no fault of the scene
+  Node root = read_document(file);
+  apply(root, overrides);
+
+  SceneKeys keys;
+  Problems problems;
+  read_map(Given{root, "", problems}, keys);
+  if (auto& micrograph = keys.specimen.micrograph) {
+    const auto folder = std::filesystem::absolute(file).parent_path();
+    micrograph->file = (folder / micrograph->file).lexically_normal();
+  }
+  const Checked checked{keys, root, problems};
+  check_materials(checked);
+  check_specimen(checked);
+  check_run(checked);
+  problems.throw_if_any();
+
+  Scene scene = keys;
+  scene.file = file;
+  if (scene.name.empty()) scene.name = file.stem().string();
+  if (scene.materials.empty()) scene.materials = {cell_wall()};
+  for (Shape& shape : scene.specimen.shapes)
+    if (shape.material.empty()) shape.material = scene.materials.front().name;
+  scene.output = filled_output(keys.output_keys, scene.motion);
+  return scene;
+}
+
+void write_effective_scene(std::ostream& out, const Scene& scene)
+{
+  out << "# " << scene.file.filename().string() << " as it was run, every default filled in.\n";
+  print_document(out, write_map(keys_of(scene)));
+}
+
+}  // namespace mpm::scene

@@ -1,0 +1,149 @@
+#include <mpm/scene/schema.hpp>
+
+namespace mpm::scene {
+
+template <>
+const std::vector<Parameter<Grid>>& parameters<Grid>()
+{
+  using enum Quantity;
+  using G = Grid;
+  static const std::vector<Parameter<G>> rows{
+      member<G>("cells", &G::cells,
+                {.bound = at_least(2), .default_text = "150 along x, nearly square ones along y"},
+                "cells over the specimen along x and y"),
+      member<G>(
+          "spacing", &G::spacing,
+          {.quantity = length, .bound = above(0), .spread = true, .default_text = "from cells"},
+          "cell size, rounded so that whole cells fit"),
+      member<G>("particles_per_cell", &G::particles_per_cell, {.bound = from_to(1, 8)},
+                "material points per cell and direction"),
+      member<G>("margin", &G::margin,
+                {.quantity = length,
+                 .bound = at_least(0),
+                 .spread = true,
+                 .default_text = "0; 25 % of the width at free lateral sides"},
+                "empty space left, right, below and above the specimen"),
+  };
+  return rows;
+}
+
+template <>
+const std::vector<Parameter<Numerics>>& parameters<Numerics>()
+{
+  using N = Numerics;
+  static const std::vector<Parameter<N>> rows{
+      member<N>("plane", &N::plane, {}, "plane strain or plane stress"),
+      member<N>("thickness", &N::thickness, {.quantity = Quantity::length, .bound = above(0)},
+                "out of the plane"),
+      member<N>("shape_function", &N::shape_function, {},
+                "hat functions, GIMP (uniform particle domains) or quadratic B-splines"),
+      member<N>("scheme", &N::scheme, {}, "what particles take from the grid"),
+      member<N>("update_order", &N::update_order, {},
+                "stress from re-mapped velocities (musl), before (usf) or after (usl) the forces"),
+      member<N>("cfl", &N::cfl,
+                {.bound = {End{0, false}, End{2, true}},
+                 .default_text = "by shape function and update order"},
+                "time step times fastest wave over cell size"),
+      member<N>("ranks", &N::ranks, {.bound = at_least(0), .default_text = "chosen"},
+                "process grid along x and y; 0: chosen"),
+  };
+  return rows;
+}
+
+template <>
+const std::vector<Parameter<Loading>>& parameters<Loading>()
+{
+  using enum Quantity;
+  using L = Loading;
+  static const std::vector<Parameter<L>> rows{
+      member<L>("piston", &L::piston, {}, "side from which the piston comes"),
+      member<L>("speed", &L::speed,
+                {.quantity = velocity, .bound = above(0), .need = Need::required}, "of the piston"),
+      member<L>("strain", &L::strain, {.quantity = fraction, .bound = between(0, 0.99)},
+                "piston travel over specimen length at the end of the run"),
+      member<L>("ramp_time", &L::ramp_time, {.quantity = time, .bound = at_least(0)},
+                "smooth rise of the piston's speed; 0: at once"),
+      member<L>("grip", &L::grip, {}, "of the piston and of the fixed edge opposite"),
+      member<L>("lateral", &L::lateral, {.spread = true},
+                "the sides along the travel: lower (or left), upper (or right)"),
+      member<L>("load_cell", &L::load_cell, {.default_text = "none"},
+                "elastic layer at the fixed edge that measures the force"),
+  };
+  return rows;
+}
+
+template <>
+const std::vector<Parameter<LoadCell>>& parameters<LoadCell>()
+{
+  using C = LoadCell;
+  static const std::vector<Parameter<C>> rows{
+      member<C>("cells", &C::cells, {.bound = at_least(1)}, "thickness in grid cells"),
+      member<C>("stiffness_ratio", &C::stiffness_ratio, {.bound = above(0)},
+                "modulus and density relative to the first material"),
+  };
+  return rows;
+}
+
+template <>
+const std::vector<Parameter<FreeMotion>>& parameters<FreeMotion>()
+{
+  using F = FreeMotion;
+  static const std::vector<Parameter<F>> rows{
+      member<F>("end_time", &F::end_time,
+                {.quantity = Quantity::time, .bound = above(0), .need = Need::required},
+                "end of the run"),
+      member<F>("sides", &F::sides, {.spread = true}, "of the grid: left, right, bottom, top"),
+  };
+  return rows;
+}
+
+template <>
+const std::vector<Parameter<OutputKeys>>& parameters<OutputKeys>()
+{
+  using O = OutputKeys;
+  static const std::vector<Parameter<O>> rows{
+      member<O>("history_lines", &O::history_lines, {.bound = at_least(2)},
+                "lines of the history over the whole run"),
+      member<O>("snapshots", &O::snapshots, {.default_text = "7, evenly"},
+                "when to write all particles"),
+      member<O>("fields", &O::fields, {}, "of each particle, beside its position"),
+      member<O>("compress", &O::compress, {}, "half the size, three to four times the time"),
+  };
+  return rows;
+}
+
+template <>
+const std::vector<Parameter<SnapshotKeys>>& parameters<SnapshotKeys>()
+{
+  using enum Quantity;
+  using S = SnapshotKeys;
+  static const std::vector<Parameter<S>> rows{
+      member<S>("strains", &S::strains,
+                {.quantity = fraction, .bound = from_to(0, 0.99), .default_text = "none"},
+                "with a piston"),
+      member<S>("times", &S::times,
+                {.quantity = time, .bound = at_least(0), .default_text = "none"},
+                "beside the strains, or without a piston"),
+      member<S>("count", &S::count, {.bound = from_to(0, 100000), .default_text = "7"},
+                "evenly from start to end, without lists; 0: no snapshots"),
+  };
+  return rows;
+}
+
+bool Value<SnapshotKeys>::read(const Given& given, const Rule&, SnapshotKeys& keys)
+{
+  if (given.node.kind != Node::Kind::scalar) return read_map(given, keys);
+  return Value<std::optional<int>>::read(given, {.bound = from_to(0, 100000)}, keys.count);
+}
+
+Node Value<SnapshotKeys>::write(const SnapshotKeys& keys, const Rule&)
+{
+  return write_map(keys);
+}
+
+std::string Value<SnapshotKeys>::describe(const Rule&)
+{
+  return "how many, or " + link_to(snapshots_section);
+}
+
+}  // namespace mpm::scene

@@ -1,0 +1,217 @@
+#include <mpm/scene/schema.hpp>
+
+namespace mpm::scene {
+
+enum class Rotation { none, quarter, half, three_quarters };
+template <>
+inline constexpr auto names_of<Rotation> =
+    std::to_array<Named<Rotation>>({{Rotation::none, "0"},
+                                    {Rotation::quarter, "90"},
+                                    {Rotation::half, "180"},
+                                    {Rotation::three_quarters, "270"}});
+
+enum class Flip { none, horizontal, vertical, both };
+template <>
+inline constexpr auto names_of<Flip> = std::to_array<Named<Flip>>({{Flip::none, "none"},
+                                                                   {Flip::horizontal, "horizontal"},
+                                                                   {Flip::vertical, "vertical"},
+                                                                   {Flip::both, "both"}});
+
+/// `threshold` as written: a gray level, `otsu`, or a map with the density aimed at.
+struct ThresholdKey {
+  ThresholdRule rule = ThresholdRule::value;
+  double value = 0;
+};
+
+namespace {
+
+constexpr Bound gray_level = from_to(0, 255);
+constexpr Bound relative_density = between(0, 1);
+const std::string density_key = "target_relative_density";
+
+const Condition<Specimen> from_image{[](const Specimen& s) { return s.micrograph.has_value(); },
+                                     "a specimen with a micrograph"};
+const Condition<Specimen> without_bands{
+    [](const Specimen& s) { return s.micrograph && s.micrograph->bands.empty(); },
+    "a micrograph without bands"};
+const Condition<Specimen> from_shapes{[](const Specimen& s) { return !s.micrograph; },
+                                      "a specimen without a micrograph"};
+
+Micrograph image(const Specimen& specimen)
+{
+  return specimen.micrograph.value_or(Micrograph{});
+}
+
+template <class T>
+Parameter<Specimen> image_member(std::string key, T Micrograph::*pointer, const Traits& traits,
+                                 std::string help)
+{
+  return property<T, Specimen>(
+             std::move(key), [pointer](const Specimen& s) { return image(s).*pointer; },
+             [pointer](Specimen& s, T value) { (*s.micrograph).*pointer = std::move(value); },
+             traits, std::move(help))
+      .when(from_image);
+}
+
+}  // namespace
+
+template <>
+struct Value<ThresholdKey> {
+  static bool read(const Given& given, const Rule& rule, ThresholdKey& key)
+  {
+    if (given.node.kind == Node::Kind::scalar && given.node.scalar == "otsu") {
+      key = {ThresholdRule::otsu, 0};
+      return true;
+    }
+    if (given.node.kind == Node::Kind::map) {
+      if (!check_keys(given, {density_key}).empty()) return false;
+      const Entry* entry = given.node.find(density_key);
+      if (entry == nullptr) return given.refuse("needs the key " + density_key);
+      key.rule = ThresholdRule::target_relative_density;
+      return Value<double>::read({entry->value, joined(given.path, density_key), given.problems},
+                                 {Quantity::fraction, relative_density}, key.value);
+    }
+    key.rule = ThresholdRule::value;
+    if (given.node.kind != Node::Kind::scalar || !split_number_and_unit(given.node.scalar))
+      return given.refuse("must be a gray level of 0 to 255, otsu or {" + density_key + ": ...}");
+    return Value<double>::read(given, rule, key.value);
+  }
+  static Node write(const ThresholdKey& key, const Rule& rule)
+  {
+    if (key.rule == ThresholdRule::otsu) return Node::of("otsu");
+    if (key.rule == ThresholdRule::value) return Value<double>::write(key.value, rule);
+    Node node;
+    node.kind = Node::Kind::map;
+    node.entries.push_back(
+        {density_key, {}, Value<double>::write(key.value, {Quantity::fraction})});
+    return node;
+  }
+  static std::string describe(const Rule&)
+  {
+    return "a gray level of 0 to 255, `otsu` or `{" + density_key + ": 0.4}`";
+  }
+};
+
+namespace {
+
+ThresholdKey threshold_key(const Specimen& s)
+{
+  const Micrograph m = image(s);
+  const bool aimed = m.threshold_rule == ThresholdRule::target_relative_density;
+  return {m.threshold_rule, aimed ? m.target_relative_density : m.threshold};
+}
+
+void set_threshold(Specimen& s, ThresholdKey key)
+{
+  s.micrograph->threshold_rule = key.rule;
+  if (key.rule == ThresholdRule::value) s.micrograph->threshold = key.value;
+  if (key.rule == ThresholdRule::target_relative_density)
+    s.micrograph->target_relative_density = key.value;
+}
+
+}  // namespace
+
+template <>
+const std::vector<Parameter<Specimen>>& parameters<Specimen>()
+{
+  using enum Quantity;
+  using S = Specimen;
+  using I = Micrograph;
+  static const std::vector<Parameter<S>> rows{
+      property<std::optional<std::filesystem::path>, S>(
+          "micrograph",
+          [](const S& s) {
+            return s.micrograph ? std::optional(s.micrograph->file) : std::nullopt;
+          },
+          [](S& s, auto file) { s.micrograph.emplace().file = *file; },
+          {.decides = true, .default_text = "none"},
+          "picture of a section: BMP, PNG or TIFF, gray or colour"),
+      image_member("image_size", &I::image_size,
+                   {.quantity = length,
+                    .bound = above(0),
+                    .default_text = "from pixel_size or the TIFF's resolution"},
+                   "width and height of the whole picture as stored"),
+      image_member("pixel_size", &I::pixel_size,
+                   {.quantity = length,
+                    .bound = above(0),
+                    .spread = true,
+                    .default_text = "from image_size or the TIFF's resolution"},
+                   "width and height of a pixel"),
+      image_member("crop", &I::crop, {.bound = at_least(0), .default_text = "whole picture"},
+                   "part to use, in pixels of the file: x, y (from the top), width, height"),
+      property<Rotation, S>(
+          "rotate", [](const S& s) { return static_cast<Rotation>(image(s).rotate / 90); },
+          [](S& s, Rotation turn) { s.micrograph->rotate = 90 * static_cast<int>(turn); }, {},
+          "degrees counter-clockwise, after the crop")
+          .when(from_image),
+      property<Flip, S>(
+          "flip",
+          [](const S& s) {
+            const I m = image(s);
+            return static_cast<Flip>((m.flip_horizontal ? 1 : 0) + (m.flip_vertical ? 2 : 0));
+          },
+          [](S& s, Flip flip) {
+            s.micrograph->flip_horizontal = flip == Flip::horizontal || flip == Flip::both;
+            s.micrograph->flip_vertical = flip == Flip::vertical || flip == Flip::both;
+          },
+          {}, "left and right, or top and bottom exchanged, after the rotation")
+          .when(from_image),
+      image_member("wall", &I::wall, {}, "whether the cell wall is the bright or the dark part"),
+      image_member("bands", &I::bands,
+                   {.decides = true, .default_text = "none: one material by threshold"},
+                   "several materials by gray level; gray outside all bands is void"),
+      property<ThresholdKey, S>("threshold", threshold_key, set_threshold, {.bound = gray_level},
+                                "gray level that separates cell wall and lumen")
+          .when(without_bands),
+      property<std::optional<double>, S>(
+          density_key, [](const S&) { return std::optional<double>{}; },
+          [](S& s, auto density) {
+            set_threshold(s, {ThresholdRule::target_relative_density, *density});
+          },
+          {.quantity = fraction, .bound = relative_density, .default_text = "none"},
+          "choose the threshold that gives this relative density")
+          .when(without_bands),
+      image_member("remove_specks", &I::remove_specks, {.bound = at_least(0)},
+                   "pieces of wall with fewer particle locations than this become void"),
+      image_member("remove_unconnected", &I::remove_unconnected, {},
+                   "keep only what is connected to the largest piece"),
+      member<S>("size", &S::size, {.quantity = length, .bound = above(0), .default_text = "none"},
+                "width and height of a specimen made of shapes")
+          .when(from_shapes),
+      member<S>("shapes", &S::shapes, {.default_text = "none"},
+                "drawn in order; later ones override earlier ones")
+          .when(from_shapes),
+      member<S>("windows", &S::windows, {.default_text = "none"},
+                "parts whose relative density is reported"),
+  };
+  return rows;
+}
+
+template <>
+const std::vector<Parameter<GrayBand>>& parameters<GrayBand>()
+{
+  using B = GrayBand;
+  static const std::vector<Parameter<B>> rows{
+      member<B>("from", &B::from, {.bound = from_to(0, 256), .need = Need::required},
+                "lowest gray level"),
+      member<B>("to", &B::to, {.bound = from_to(0, 256), .need = Need::required},
+                "gray level above the highest"),
+      member<B>("material", &B::material, {.need = Need::required}, "name of a material"),
+  };
+  return rows;
+}
+
+template <>
+const std::vector<Parameter<Window>>& parameters<Window>()
+{
+  using W = Window;
+  const Traits part{.quantity = Quantity::fraction, .bound = from_to(0, 1)};
+  static const std::vector<Parameter<W>> rows{
+      member<W>("name", &W::name, {.need = Need::required}, "shown with the density"),
+      member<W>("x", &W::x, part, "from and to, as fractions of the width"),
+      member<W>("y", &W::y, part, "from (below) and to, as fractions of the height"),
+  };
+  return rows;
+}
+
+}  // namespace mpm::scene

@@ -1,0 +1,84 @@
+#include <mpm/simulation/progress.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <unistd.h>
+
+namespace mpm {
+
+namespace {
+
+constexpr double seconds_between_updates = 0.5;
+constexpr double fraction_between_lines = 0.05;
+
+std::string duration(double seconds)
+{
+  const long s = long(seconds + 0.5);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
+}
+
+}  // namespace
+
+bool output_is_terminal()
+{
+  if (!std::getenv("OMPI_COMM_WORLD_RANK") && !std::getenv("PMI_RANK")) return isatty(1) != 0;
+  std::error_code none;
+  const auto target = std::filesystem::read_symlink(
+      "/proc/" + std::to_string(getppid()) + "/fd/1", none);
+  return !none && (target.string().starts_with("/dev/pts/") ||
+                   target.string().starts_with("/dev/tty"));
+}
+
+Progress::Progress()
+    : start_(Clock::now()), last_(start_), terminal_(output_is_terminal())
+{
+}
+
+std::string Progress::line(const ProgressState& state, double seconds) const
+{
+  std::string text = fmt::format("{:3.0f} %  step {}", 100 * state.fraction, state.step);
+  if (state.loaded)
+    text += fmt::format("  strain {:.2f} %  stress {:.1f} MPa", 100 * state.strain,
+                        1e-6 * state.stress);
+  else
+    text += fmt::format("  t {:.4g} s", state.time);
+  if (seconds > 0) {
+    text += fmt::format("  {:.1f} M particles/s", 1e-6 * double(state.particle_steps) / seconds);
+    if (state.fraction > 0.01 && state.fraction < 1)
+      text += "  " + duration(seconds * (1 - state.fraction) / state.fraction) + " left";
+  }
+  return text;
+}
+
+void Progress::show(const ProgressState& state)
+{
+  const auto now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  if (terminal_) {
+    if (std::chrono::duration<double>(now - last_).count() < seconds_between_updates &&
+        state.fraction < 1)
+      return;
+    fmt::print("\r{:<79.79}", line(state, seconds));
+    open_line_ = true;
+  } else {
+    if (state.fraction < next_fraction_ && state.fraction < 1) return;
+    fmt::print("{}\n", line(state, seconds));
+    while (next_fraction_ <= state.fraction) next_fraction_ += fraction_between_lines;
+  }
+  std::fflush(stdout);
+  last_ = now;
+}
+
+void Progress::finish()
+{
+  if (open_line_) fmt::print("\n");
+  open_line_ = false;
+  std::fflush(stdout);
+}
+
+}  // namespace mpm

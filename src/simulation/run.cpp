@@ -1,0 +1,304 @@
+#include <mpm/analysis/compression_summary.hpp>
+#include <mpm/core/error.hpp>
+#include <mpm/micrograph/preview.hpp>
+#include <mpm/output/summary.hpp>
+#include <mpm/parallel/session.hpp>
+#include <mpm/scene/reader.hpp>
+#include <mpm/simulation/progress.hpp>
+#include <mpm/simulation/provenance.hpp>
+#include <mpm/simulation/recorder.hpp>
+#include <mpm/simulation/run.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+
+namespace mpm {
+
+namespace {
+
+/// Steps between two looks at the largest speed of all ranks.
+constexpr GlobalIndex steps_between_speed_checks = 20;
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::vector<BoundaryCondition<2>*> pointers(
+    const std::vector<std::unique_ptr<BoundaryCondition<2>>>& conditions)
+{
+  std::vector<BoundaryCondition<2>*> list;
+  for (const auto& condition : conditions) list.push_back(condition.get());
+  return list;
+}
+
+/// Moments of snapshots, ascending, s.
+std::vector<double> snapshot_moments(const scene::Scene& scene,
+                                     const micrograph::SpecimenModel& specimen)
+{
+  std::vector<double> times = scene.output.snapshot_times;
+  if (const auto* loading = std::get_if<scene::Loading>(&scene.motion)) {
+    scene::Scene part = scene;
+    for (const double strain : scene.output.snapshot_strains) {
+      std::get<scene::Loading>(part.motion).strain = strain;
+      times.push_back(strain > 0 ? end_time(part, specimen) : 0.0);
+    }
+    (void)loading;
+  }
+  std::ranges::sort(times);
+  return times;
+}
+
+class Run {
+ public:
+  Run(MPI_Comm comm, const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+      const Layout& layout, const std::filesystem::path& folder)
+      : comm_(comm),
+        scene_(scene),
+        specimen_(specimen),
+        layout_(layout),
+        folder_(folder),
+        start_(std::chrono::steady_clock::now()),
+        decomposition_(make_decomposition()),
+        model_(make_model(scene, specimen, layout, decomposition_)),
+        conditions_(pointers(model_.conditions)),
+        stepper_(decomposition_, std::move(model_.transfer), std::move(model_.bodies),
+                 std::move(model_.conditions),
+                 {update_order_of(scene), 1e-12 * layout.largest_particle_mass}),
+        history_(folder, stepper_, conditions_, model_.apparatus),
+        snapshots_(scene, folder, comm),
+        moments_(snapshot_moments(scene, specimen)),
+        end_(end_time(scene, specimen))
+  {
+    particles_ = stepper_.particles();
+    sum_over_ranks(comm_, std::span(&particles_, 1));
+  }
+
+  void run()
+  {
+    const auto loop_start = std::chrono::steady_clock::now();
+    const double line_interval = end_ / scene_.output.history_lines;
+    std::size_t next_line = 1;
+    write_due_snapshots();
+    history_.record(stepper_, first_time_step(layout_));
+    double speed = layout_.largest_speed;
+    double dt = 0;
+    while (!finished()) {
+      if (stepper_.steps() % steps_between_speed_checks == 0) {
+        if (stepper_.steps() > 0)
+          speed = std::max(layout_.largest_speed,
+                           largest_over_ranks(comm_, stepper_.largest_speed()));
+        dt = layout_.cfl * layout_.geometry.smallest_spacing() / (layout_.wave_speed + speed);
+      }
+      const double last = std::min(dt, end_ - stepper_.time());
+      stepper_.step(last);
+      history_.observe(stepper_);
+      if (stepper_.time() >= double(next_line) * line_interval * (1 - 1e-12) || finished()) {
+        const HistoryLine& line = history_.record(stepper_, last);
+        next_line = std::size_t(stepper_.time() / line_interval * (1 + 1e-12)) + 1;
+        show(line);
+      }
+      write_due_snapshots();
+    }
+    loop_seconds_ = seconds_since(loop_start);
+    progress_.finish();
+    finish();
+  }
+
+ private:
+  Decomposition<2> make_decomposition() const
+  {
+    std::optional<int> keep_whole;
+    if (const auto* loading = std::get_if<scene::Loading>(&scene_.motion))
+      keep_whole = loading->piston == scene::Side::left || loading->piston == scene::Side::right
+                       ? 0
+                       : 1;
+    return {comm_, layout_.geometry,
+            IndexVec<2>(scene_.numerics.ranks[0], scene_.numerics.ranks[1]),
+            layout_.layer_weights, keep_whole};
+  }
+
+  bool finished() const
+  {
+    return stepper_.time() >= end_ * (1 - 1e-12) ||
+           (scene_.steps && stepper_.steps() >= *scene_.steps);
+  }
+
+  void write_due_snapshots()
+  {
+    bool due = false;
+    while (next_moment_ < moments_.size() &&
+           stepper_.time() >= moments_[next_moment_] * (1 - 1e-9)) {
+      due = true;
+      ++next_moment_;
+    }
+    if (!due) return;
+    const auto start = std::chrono::steady_clock::now();
+    snapshots_.write(stepper_, strain());
+    output_seconds_ += seconds_since(start);
+  }
+
+  double strain() const
+  {
+    if (!model_.apparatus) return 0;
+    return std::abs(model_.apparatus->piston->motion().displacement(stepper_.time())) /
+           model_.apparatus->length;
+  }
+
+  void show(const HistoryLine& line)
+  {
+    if (rank_of(comm_) != 0) return;
+    const double by_steps =
+        scene_.steps ? double(stepper_.steps()) / double(*scene_.steps) : 0.0;
+    progress_.show({std::max(stepper_.time() / end_, by_steps), long(stepper_.steps()), line.time,
+                    line.strain, line.piston_stress, model_.apparatus.has_value(),
+                    long(stepper_.steps() * particles_)});
+  }
+
+  void finish()
+  {
+    const GlobalIndex most_bytes = largest_memory();
+    agree(comm_, [&] {
+      if (rank_of(comm_) == 0) write_summary(most_bytes);
+    });
+  }
+
+  /// Particle and node arrays of the rank that has most, bytes.
+  GlobalIndex largest_memory() const
+  {
+    double bytes = double(stepper_.grid().bytes());
+    for (const Body<2>& body : stepper_.bodies()) bytes += double(body.particles.bytes());
+    return GlobalIndex(largest_over_ranks(comm_, bytes));
+  }
+
+  analysis::CompressionProperties properties() const
+  {
+    std::vector<double> strain, stress;
+    for (const HistoryLine& line : history_.lines()) {
+      strain.push_back(line.strain);
+      stress.push_back(line.piston_stress);
+    }
+    const auto& loading = std::get<scene::Loading>(scene_.motion);
+    analysis::CurveOptions options;
+    options.discard_strain = 2 * loading.speed / layout_.wave_speed;
+    return analysis::compression_properties(strain, stress, options);
+  }
+
+  void write_summary(GlobalIndex most_bytes) const
+  {
+    const HistoryLine& last = history_.lines().back();
+    output::Summary summary;
+    summary.set("name", scene_.name);
+    summary.set("title", scene_.title);
+    summary.set("relative_density", specimen_.densities.front().value);
+    summary.set("bulk_density", specimen_.densities.front().bulk_density);
+    for (std::size_t k = 1; k < specimen_.densities.size(); ++k)
+      summary.section("windows").set(specimen_.densities[k].window, specimen_.densities[k].value);
+    summary.set("particles", particles_);
+    summary.set("cells", std::vector<double>{double(specimen_.cells[0]), double(specimen_.cells[1])});
+    summary.set("ranks", ranks_of(comm_));
+    summary.set("steps", stepper_.steps());
+    summary.set("time_step", first_time_step(layout_));
+    summary.set("end_time", stepper_.time());
+    summary.set("strain", strain());
+    summary.set("wall_seconds", seconds_since(start_));
+    summary.set("loop_seconds", loop_seconds_);
+    summary.set("output_seconds", output_seconds_);
+    summary.set("ns_per_particle_step", 1e9 * (loop_seconds_ - output_seconds_) *
+                                            ranks_of(comm_) /
+                                            (double(particles_) * double(stepper_.steps())));
+    summary.set("largest_rank_bytes", most_bytes);
+    summary.set("energy_error", last.energy_error);
+    double largest_error = 0;
+    for (const HistoryLine& line : history_.lines())
+      if (line.strain > 0.01 || !model_.apparatus)
+        largest_error = std::max(largest_error, std::abs(line.energy_error));
+    summary.set("largest_energy_error", largest_error);
+    if (model_.apparatus) {
+      const auto found = properties();
+      const auto strain_of = [](const auto& p) {
+        return p ? std::optional<double>(p->strain) : std::nullopt;
+      };
+      const auto stress_of = [](const auto& p) {
+        return p ? std::optional<double>(p->stress) : std::nullopt;
+      };
+      summary.set("modulus", found.modulus);
+      summary.set("buckling_stress", stress_of(found.buckling));
+      summary.set("buckling_strain", strain_of(found.buckling));
+      summary.set("densification_stress", stress_of(found.densification));
+      summary.set("densification_strain", strain_of(found.densification));
+      summary.set("deepest_behind_piston", history_.deepest_behind_piston());
+      analysis::describe(found, summary.section("compression"));
+      print_properties(found);
+    }
+    for (const auto& [what, version] : provenance()) summary.section("provenance").set(what, version);
+    summary.section("provenance").set("scene", scene_.file.string());
+    summary.write(folder_ / "summary.json");
+    fmt::print("{} steps in {:.1f} s, {:.1f} ns per particle and step, energy error {:.2f} %\n"
+               "results in {}\n",
+               stepper_.steps(), loop_seconds_,
+               1e9 * (loop_seconds_ - output_seconds_) * ranks_of(comm_) /
+                   (double(particles_) * double(stepper_.steps())),
+               100 * last.energy_error, folder_.string());
+  }
+
+  static void print_properties(const analysis::CompressionProperties& found)
+  {
+    const auto point = [](const char* what, const std::optional<analysis::CurvePoint>& p) {
+      if (p)
+        fmt::print("{:<24} {:8.1f} MPa at {:.2f} %\n", what, 1e-6 * p->stress, 100 * p->strain);
+      else
+        fmt::print("{:<24}        - (not reached or not distinct)\n", what);
+    };
+    if (found.modulus) fmt::print("{:<24} {:8.0f} MPa\n", "modulus", 1e-6 * *found.modulus);
+    point("onset of buckling", found.buckling);
+    point("onset of densification", found.densification);
+  }
+
+  MPI_Comm comm_;
+  const scene::Scene& scene_;
+  const micrograph::SpecimenModel& specimen_;
+  const Layout& layout_;
+  std::filesystem::path folder_;
+  std::chrono::steady_clock::time_point start_;
+  Decomposition<2> decomposition_;
+  Model model_;
+  std::vector<BoundaryCondition<2>*> conditions_;
+  Stepper<2> stepper_;
+  History history_;
+  Snapshots snapshots_;
+  Progress progress_;
+  std::vector<double> moments_;
+  std::size_t next_moment_ = 0;
+  double end_;
+  GlobalIndex particles_ = 0;
+  double loop_seconds_ = 0, output_seconds_ = 0;
+};
+
+}  // namespace
+
+void run_scene(MPI_Comm comm, const scene::Scene& scene,
+               const micrograph::SpecimenModel& specimen, const Layout& layout,
+               const std::filesystem::path& folder)
+{
+  agree(comm, [&] {
+    if (rank_of(comm) != 0) return;
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    if (failure)
+      throw FileError(fmt::format("{}: cannot make this folder ({}). Choose another with --output.",
+                                  folder.string(), failure.message()));
+    std::ofstream effective(folder / "scene.yaml");
+    scene::write_effective_scene(effective, scene);
+    if (!effective.flush())
+      throw FileError(fmt::format("{}: cannot write", (folder / "scene.yaml").string()));
+    micrograph::write_preview(specimen, folder / "specimen.png");
+  });
+  Run(comm, scene, specimen, layout, folder).run();
+}
+
+}  // namespace mpm

@@ -1,0 +1,27 @@
+# Snapshots written by 1, 2 and 3 ranks, and the series of 2 ranks read back through ParaView.
+find_package(nlohmann_json REQUIRED)
+mpm_parallel_test(snapshot_test RANKS 1 2 3 SOURCES ${CMAKE_CURRENT_LIST_DIR}/snapshot_test.cpp
+                  LIBRARIES mpm_output mpm_core nlohmann_json::nlohmann_json ${HDF5_C_LIBRARIES})
+target_include_directories(snapshot_test PRIVATE ${HDF5_C_INCLUDE_DIRS})
+target_compile_definitions(snapshot_test PRIVATE
+                           MPM_SCRATCH_DIRECTORY="${CMAKE_BINARY_DIR}/snapshot_test_files")
+
+set(series ${CMAKE_BINARY_DIR}/snapshot_test_files/for_paraview)
+add_test(NAME paraview_series_is_written
+         COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 2 $<TARGET_FILE:snapshot_test>
+                 --gtest_filter=SnapshotSeries.ForParaView*)
+set_tests_properties(paraview_series_is_written PROPERTIES
+  FIXTURES_SETUP paraview_series LABELS regression PROCESSORS 2
+  ENVIRONMENT "MPM_SERIES_DIRECTORY=${series};OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe;OMPI_MCA_hwloc_base_binding_policy=none;PRTE_MCA_hwloc_default_binding_policy=none")
+
+find_program(PVPYTHON_EXECUTABLE pvpython)
+if(PVPYTHON_EXECUTABLE)
+  add_test(NAME paraview_reads_series
+           COMMAND ${PVPYTHON_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/../support/read_xdmf.py
+                   ${series}/particles.xdmf --expect ${series}/expected.json)
+else()
+  add_test(NAME paraview_reads_series COMMAND ${CMAKE_COMMAND} -E echo
+           "skipped: pvpython is not installed (Debian: python3-paraview)")
+endif()
+set_tests_properties(paraview_reads_series PROPERTIES
+  FIXTURES_REQUIRED paraview_series LABELS regression SKIP_REGULAR_EXPRESSION "^skipped:")

@@ -1,0 +1,190 @@
+#include "synthetic_curve.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <limits>
+#include <mpm/analysis/compression_curve.hpp>
+#include <mpm/analysis/compression_summary.hpp>
+
+namespace mpm::analysis {
+namespace {
+
+using ::testing::HasSubstr;
+using synthetic::Curve;
+using synthetic::noisy;
+using synthetic::sample;
+using synthetic::wood;
+
+CompressionProperties read(const Curve& curve, const CurveOptions& options = {})
+{
+  return compression_properties(curve.strain, curve.stress, options);
+}
+
+/// Noise and ringing as shares of the buckling stress, and what the curve's modulus may miss by.
+struct Disturbance {
+  double share;
+  double modulus_tolerance;
+};
+
+class DisturbedWood : public ::testing::TestWithParam<Disturbance> {};
+
+// Without noise the rounded knee alone takes 3 % of the slope of the elastic window. On top of that
+// come about two standard deviations of the noise in a window of 210 samples and 1.6 periods:
+// 3, 8 and 15 %.
+INSTANTIATE_TEST_SUITE_P(Noise, DisturbedWood,
+                         ::testing::Values(Disturbance{0, 0.03}, Disturbance{0.02, 0.06},
+                                           Disturbance{0.05, 0.11}, Disturbance{0.10, 0.18}));
+
+TEST_P(DisturbedWood, ModulusAndBothOnsetsAreRecovered)
+{
+  const auto [share, modulus_tolerance] = GetParam();
+  const CompressionProperties found = read(noisy(sample(wood, 0.6, 12000), share));
+  ASSERT_TRUE(found.modulus && found.buckling && found.densification && found.energy_efficiency);
+  EXPECT_NEAR(*found.modulus, synthetic::modulus, modulus_tolerance * synthetic::modulus);
+  // The plateau is a fit over twenty times the elastic window: a tenth of its slope error remains.
+  EXPECT_NEAR(found.buckling->stress, synthetic::buckling_stress, 1.5e6);
+  EXPECT_NEAR(found.buckling->strain, synthetic::buckling_strain, 0.002);
+  // By definition of the line through 2 and 4 times the plateau's stress, to the right of the kink.
+  EXPECT_NEAR(found.densification->strain, 0.280, 0.002);
+  EXPECT_NEAR(found.densification->stress, 165e6, 1.5e6);
+  EXPECT_NEAR(found.energy_efficiency->strain, 0.263, 0.006);  // the maximum is flat
+  EXPECT_EQ(found.remark, "");
+}
+
+TEST_P(DisturbedWood, StatedErrorCoversTheModulusAndIsNotIdle)
+{
+  const auto [share, modulus_tolerance] = GetParam();
+  const CompressionProperties found = read(noisy(sample(wood, 0.6, 12000), share));
+  const double rounded_corner = 0.03 * synthetic::modulus;
+  EXPECT_LT(std::abs(*found.modulus - synthetic::modulus), found.modulus_error + rounded_corner);
+  EXPECT_LT(found.modulus_error, 3 * share * synthetic::modulus + 5e6);
+}
+
+TEST(CompressionCurve, LineIsNotForcedThroughTheOrigin)
+{
+  const CompressionProperties found = read(sample(wood, 0.6, 6000));
+  EXPECT_NEAR(found.elastic_intercept, synthetic::intercept, 0.5e6);  // the rounded knee's share
+}
+
+TEST(CompressionCurve, SamplingDoesNotMatter)
+{
+  const CompressionProperties fine = read(sample(wood, 0.6, 20000));
+  Curve uneven;
+  for (int i = 1; i <= 3000; ++i) {  // dense at the start, as output by doubling intervals would be
+    const double strain = 0.6 * (i / 3000.0) * (i / 3000.0);
+    uneven.strain.push_back(strain);
+    uneven.stress.push_back(wood(strain));
+  }
+  const CompressionProperties coarse = read(uneven);
+  EXPECT_NEAR(*coarse.modulus, *fine.modulus, 0.02 * *fine.modulus);  // the window's samples differ
+  EXPECT_NEAR(coarse.buckling->stress, fine.buckling->stress, 0.3e6);
+  EXPECT_NEAR(coarse.densification->strain, fine.densification->strain, 0.0015);  // a bin of 400
+}
+
+TEST(CompressionCurve, SameInputGivesTheSameErrorBars)
+{
+  const Curve curve = noisy(sample(wood, 0.6, 3000), 0.05);
+  EXPECT_EQ(read(curve).modulus_error, read(curve).modulus_error);
+  EXPECT_GT(read(curve).buckling->strain_error, 0);
+}
+
+TEST(CompressionCurve, StartUpTransientIsDiscardedByStrainAndTheModulusIsSane)
+{
+  // A piston starting at 10 m/s sends a front of rho c V = 0.3 sigma_b to and fro: a staircase of
+  // period 2 V / c_p, here 0.62 %, that dies out over as much strain.
+  constexpr double period = 0.0062;
+  const auto started = [](double strain) {
+    const double phase = strain / period - std::floor(strain / period);
+    return wood(strain) + 16e6 * (1 - 2 * phase) * std::exp(-strain / period);
+  };
+  const Curve curve = noisy(sample(started, 0.6, 12000), 0.01);
+  const CompressionProperties found =
+      read(curve, {.discard_strain = period, .ringing_strain = period});
+  // The window moves up to 0.62-1.3 %, where the knee's rounding and the second front are.
+  EXPECT_NEAR(*found.modulus, synthetic::modulus, 0.2 * synthetic::modulus);
+  EXPECT_NEAR(found.buckling->stress, synthetic::buckling_stress, 2e6);
+  EXPECT_NEAR(found.buckling->strain, synthetic::buckling_strain, 0.003);
+}
+
+TEST(CompressionCurve, ElasticCurveWithoutKneeHasAModulusAndNoBuckling)
+{
+  const auto elastic = [](double strain) { return 3252e6 * strain * (1 - 0.06 * strain); };
+  const CompressionProperties found = read(noisy(sample(elastic, 0.6, 6000), 0.05));
+  EXPECT_NEAR(*found.modulus, 3252e6, 0.02 * 3252e6);  // the curvature's 1 % and the noise
+  EXPECT_FALSE(found.buckling);
+  EXPECT_FALSE(found.densification);
+  EXPECT_FALSE(found.energy_efficiency);
+  EXPECT_THAT(found.remark, HasSubstr("no knee"));
+}
+
+TEST(CompressionCurve, CurveThatEndsEarlyHasNoDensification)
+{
+  const CompressionProperties found = read(sample(wood, 0.25, 2500));
+  EXPECT_NEAR(found.buckling->stress, synthetic::buckling_stress, 1e6);
+  EXPECT_FALSE(found.densification);
+  EXPECT_FALSE(found.energy_efficiency);  // still rising
+  EXPECT_THAT(found.remark, HasSubstr("No onset of densification"));
+}
+
+TEST(CompressionCurve, CurveThatReachesTwiceThePlateauOnlyReportsTheEfficiency)
+{
+  const CompressionProperties found = read(sample(wood, 0.305, 3000));
+  EXPECT_FALSE(found.densification);
+  ASSERT_TRUE(found.energy_efficiency);
+  EXPECT_NEAR(found.energy_efficiency->strain, 0.263, 0.004);
+}
+
+TEST(CompressionCurve, CurveThatEndsAtTheKneeHasAModulusOnly)
+{
+  const CompressionProperties found = read(sample(wood, 0.04, 1000));
+  EXPECT_NEAR(*found.modulus, synthetic::modulus, 0.03 * synthetic::modulus);
+  EXPECT_FALSE(found.buckling);
+  EXPECT_THAT(found.remark, HasSubstr("ends before a plateau"));
+}
+
+TEST(CompressionCurve, UnloadingDoesNotChangeWhatLoadingSaid)
+{
+  Curve curve = sample(wood, 0.6, 4000);
+  const CompressionProperties loaded = read(curve);
+  for (int i = 1; i <= 500; ++i) {
+    curve.strain.push_back(0.6 - 0.0002 * i);
+    curve.stress.push_back(0);
+  }
+  EXPECT_EQ(read(curve).densification->strain, loaded.densification->strain);
+}
+
+TEST(CompressionCurve, PointsThatAreNotNumbersAreLeftOut)
+{
+  Curve curve = sample(wood, 0.6, 4000);
+  const CompressionProperties clean = read(curve);
+  curve.strain.insert(curve.strain.begin() + 100, 0.5);
+  curve.stress.insert(curve.stress.begin() + 100, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(*read(curve).modulus, *clean.modulus);
+}
+
+TEST(CompressionCurve, InputThatSaysNothingIsAnsweredWithARemark)
+{
+  EXPECT_THAT(read({}).remark, HasSubstr("Too few points: 0"));
+  EXPECT_THAT(read(sample(wood, 0.6, 5)).remark, HasSubstr("Too few points: 5"));
+  EXPECT_THAT(read(sample([](double) { return 3e6; }, 0.6, 500)).remark,
+              HasSubstr("the same everywhere"));
+  EXPECT_THAT(read(sample([](double strain) { return -1e9 * strain; }, 0.6, 500)).remark,
+              HasSubstr("No modulus"));
+  Curve standing = sample(wood, 0.6, 500);
+  std::fill(standing.strain.begin(), standing.strain.end(), 0.0);
+  EXPECT_THAT(read(standing).remark, HasSubstr("Too few points"));
+  EXPECT_THAT(read(sample(wood, 0.6, 500), {.discard_strain = 0.7}).remark,
+              HasSubstr("Too few points: 0"));
+}
+
+TEST(CompressionCurve, SummaryHasNullForWhatIsMissing)
+{
+  output::Summary summary;
+  describe(read(sample(wood, 0.25, 2500)), summary);
+  EXPECT_THAT(summary.text(), HasSubstr("\"densification\": null"));
+  EXPECT_THAT(summary.text(), HasSubstr("\"buckling\": {\n    \"strain\": 0.01"));
+}
+
+}  // namespace
+}  // namespace mpm::analysis

@@ -1,0 +1,87 @@
+#include "synthetic_curve.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace mpm::analysis {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Outcome {
+  int status;
+  std::string text;  ///< both streams
+};
+
+Outcome run(const std::string& arguments)
+{
+  FILE* pipe = popen((std::string("'") + MPM_CURVE + "' " + arguments + " 2>&1").c_str(), "r");
+  Outcome outcome{-1, ""};
+  std::array<char, 256> piece{};
+  while (std::fgets(piece.data(), int(piece.size()), pipe)) outcome.text += piece.data();
+  outcome.status = WEXITSTATUS(pclose(pipe));
+  return outcome;
+}
+
+std::string scratch(const std::string& name)
+{
+  return (std::filesystem::path(::testing::TempDir()) / ("mpm_curve_test_" + name)).string();
+}
+
+std::string wood_history(const std::string& header, double strain_unit, double stress_unit)
+{
+  const std::string file = scratch("wood.csv");
+  std::ofstream stream(file);
+  stream << header << '\n';
+  for (int i = 0; i <= 3000; ++i) {
+    const double strain = 0.0002 * i;
+    stream << strain / strain_unit << ',' << synthetic::wood(strain) / stress_unit << '\n';
+  }
+  return file;
+}
+
+TEST(MpmCurve, PrintsTheTableOfARunAndWritesItAsJson)
+{
+  const std::string file = wood_history("strain [1],stress_piston [Pa]", 1, 1);
+  const Outcome outcome = run(file + " --json " + scratch("wood.json"));
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.text, HasSubstr("onset of buckling       54.4"));
+  std::ifstream stream(scratch("wood.json"));
+  const auto json = nlohmann::json::parse(stream);
+  EXPECT_NEAR(json["compression"]["modulus"].get<double>(), 2740e6, 0.03 * 2740e6);
+  EXPECT_NEAR(json["compression"]["densification"]["strain"].get<double>(), 0.280, 0.002);
+}
+
+TEST(MpmCurve, ConvertsTheUnitsOfALaboratoryTable)
+{
+  const std::string file = wood_history("epsilon [%],sigma [MPa]", 0.01, 1e6);
+  const Outcome outcome =
+      run(file + " --strain-column epsilon --stress-column sigma --discard '0.1 %'");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.text, HasSubstr("onset of buckling       54.4"));
+}
+
+TEST(MpmCurve, BadInputIsStatusTwoWithOneClearLine)
+{
+  const std::string file = wood_history("strain [1],stress [Pa]", 1, 1);
+  const Outcome column = run(file);
+  EXPECT_EQ(column.status, 2);
+  EXPECT_THAT(column.text, HasSubstr("no column 'stress_piston' (there are: strain, stress)"));
+  const Outcome missing = run(scratch("not there.csv").append("'").insert(0, "'"));
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_THAT(missing.text, HasSubstr("cannot be read"));
+  const Outcome unit = run(file + " --stress-column stress --discard '3 kg'");
+  EXPECT_EQ(unit.status, 2);
+  EXPECT_THAT(unit.text, HasSubstr("--discard"));
+  EXPECT_EQ(run("--no-such-option").status, 2);
+}
+
+}  // namespace
+}  // namespace mpm::analysis

@@ -1,0 +1,90 @@
+#include <mpm/micrograph/location_means.hpp>
+
+#include <cstdint>
+#include <numeric>
+
+#include <gmock/gmock.h>
+
+namespace mpm::micrograph {
+namespace {
+
+using testing::DoubleNear;
+using testing::Each;
+using testing::ElementsAre;
+using testing::Pointwise;
+
+// Exact sums, one division: at most one rounding.
+constexpr double rounding = 1e-12;
+
+TEST(LocationMeans, OnePixelPerLocationTurnsTheRowsOver)
+{
+  const GrayImage image{2,
+                        2,
+                        {10, 20,  //
+                         30, 40},
+                        {}};
+  EXPECT_THAT(location_means(image, 2, 2), ElementsAre(30, 40, 10, 20));
+}
+
+TEST(LocationMeans, FourPixelsPerLocationAreAveraged)
+{
+  const GrayImage image{4,
+                        2,
+                        {10, 20, 50, 60,  //
+                         30, 40, 70, 81},
+                        {}};
+  EXPECT_THAT(location_means(image, 2, 1), ElementsAre(25, 65.25));
+}
+
+TEST(LocationMeans, OneAndAHalfPixelsShareTheMiddlePixel)
+{
+  // Along x: (a + b/2) / 1.5 and (b/2 + c) / 1.5; along y the same.
+  const GrayImage row{3, 1, {30, 60, 120}, {}};
+  EXPECT_THAT(location_means(row, 2, 1), ElementsAre(40, 100));
+  const GrayImage square{3,
+                         3,
+                         {0, 0, 0,   //
+                          0, 90, 0,  //
+                          0, 0, 9},
+                         {}};
+  // Each quarter has a quarter of the middle pixel out of 2.25 pixels: 10; the last pixel adds 4.
+  EXPECT_THAT(location_means(square, 2, 2),
+              Pointwise(DoubleNear(rounding), {10.0, 14.0, 10.0, 10.0}));
+}
+
+TEST(LocationMeans, HalfAPixelTakesItsPixelsLevel)
+{
+  const GrayImage image{2, 1, {10, 200}, {}};
+  EXPECT_THAT(location_means(image, 4, 2), ElementsAre(10, 10, 200, 200, 10, 10, 200, 200));
+}
+
+TEST(LocationMeans, TwoThirdsOfAPixelStraddleTheMiddle)
+{
+  const GrayImage image{2, 1, {30, 90}, {}};
+  EXPECT_THAT(location_means(image, 3, 1), ElementsAre(30, 60, 90));
+}
+
+TEST(LocationMeans, EqualLevelsStayEqualForEveryRatio)
+{
+  // A mean that should equal the threshold must not fall below it by rounding.
+  for (const int pixels : {1, 7, 36, 97})
+    for (const int locations : {1, 3, 10, 41, 97, 300}) {
+      const GrayImage image{
+          pixels, pixels, std::vector<double>(std::size_t(pixels) * pixels, 150), {}};
+      EXPECT_THAT(location_means(image, locations, locations), Each(150.0));
+    }
+}
+
+TEST(LocationMeans, MeanOfTheMeansIsTheMeanOfThePixels)
+{
+  GrayImage image{23, 17, {}, {}};
+  for (int pixel = 0; pixel < 23 * 17; ++pixel) image.gray.push_back(pixel * 37 % 256);
+  const double mean = std::accumulate(image.gray.begin(), image.gray.end(), 0.0) / (23 * 17);
+  for (const auto [nx, ny] : {std::array{5, 40}, {23, 17}, {60, 3}}) {
+    const std::vector<double> means = location_means(image, nx, ny);
+    EXPECT_NEAR(std::accumulate(means.begin(), means.end(), 0.0) / (nx * ny), mean, 1e-10);
+  }
+}
+
+}  // namespace
+}  // namespace mpm::micrograph

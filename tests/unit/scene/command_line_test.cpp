@@ -1,0 +1,86 @@
+#include <mpm/core/error.hpp>
+#include <mpm/scene/command_line.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace mpm::scene {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Words = std::vector<std::string>;
+
+CommandLine parsed(const Words& words)
+{
+  return std::get<CommandLine>(parse_command_line(words));
+}
+
+std::string answer(const Words& words)
+{
+  return std::get<Answer>(parse_command_line(words)).text;
+}
+
+std::string refusal(const Words& words)
+{
+  try {
+    parse_command_line(words);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(CommandLineOptions, ASceneAlone)
+{
+  const CommandLine line = parsed({"a.yaml"});
+  EXPECT_EQ(line.scene, "a.yaml");
+  EXPECT_FALSE(line.check);
+  EXPECT_THAT(line.petsc, IsEmpty());
+  Scene scene;
+  scene.name = "oak";
+  EXPECT_EQ(results_folder(line, scene), "results/oak");
+}
+
+TEST(CommandLineOptions, OursMayStandBeforeAndBehindTheScene)
+{
+  const CommandLine line =
+      parsed({"--set", "a.b=[1, 2]", "--check", "a.yaml", "--output", "out", "--set=steps=3"});
+  EXPECT_EQ(line.scene, "a.yaml");
+  EXPECT_TRUE(line.check);
+  EXPECT_THAT(line.overrides, ElementsAre("a.b=[1, 2]", "steps=3"));
+  EXPECT_EQ(results_folder(line, Scene{}), "out");
+}
+
+TEST(CommandLineOptions, PetscGetsItsOwnWithTheirValues)
+{
+  const CommandLine line = parsed(
+      {"a.yaml", "-log_view", ":t.txt", "-da_shift", "-5", "--check", "-ksp_monitor", "-o", "out"});
+  EXPECT_THAT(line.petsc, ElementsAre("-log_view", ":t.txt", "-da_shift", "-5", "-ksp_monitor"));
+  EXPECT_TRUE(line.check);
+  EXPECT_EQ(line.output, "out");
+}
+
+TEST(CommandLineOptions, WrongUsageIsTold)
+{
+  EXPECT_EQ(refusal({"--chek", "a.yaml"}), "unknown option '--chek' (did you mean '--check'?)");
+  EXPECT_EQ(refusal({}), "no scene named. Write mpm_par scene.yaml, or see mpm_par --help.");
+  EXPECT_EQ(refusal({"a.yaml", "b.yaml"}),
+            "'b.yaml' is a second scene (one run is one scene). Put a list or a value with spaces "
+            "in quotes.");
+  EXPECT_EQ(refusal({"-log_view", "a.yaml"}),
+            "unknown option '-log_view' (before the scene). Put options for PETSc behind the "
+            "scene.");
+  EXPECT_THAT(refusal({"a.yaml", "--set"}), HasSubstr("See mpm_par --help."));
+}
+
+TEST(CommandLineOptions, QuestionsAreAnsweredWithoutAScene)
+{
+  EXPECT_THAT(answer({"--help"}), HasSubstr("--set PATH=VALUE"));
+  EXPECT_THAT(answer({"--version"}), testing::StartsWith("mpm_par "));
+  EXPECT_THAT(answer({"--input-reference"}), HasSubstr("## material"));
+}
+
+}  // namespace
+}  // namespace mpm::scene

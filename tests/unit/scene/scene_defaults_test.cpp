@@ -1,0 +1,94 @@
+#include <sstream>
+
+#include "scene_folder.hpp"
+#include <gmock/gmock.h>
+
+namespace mpm::scene {
+namespace {
+
+using testing::ElementsAre;
+
+using SceneDefaults = SceneFolder;
+
+TEST_F(SceneDefaults, SixLinesCrushAMicrograph)
+{
+  const Scene scene = read(smallest);
+  EXPECT_EQ(scene.name, "a");
+  EXPECT_EQ(scene.specimen.micrograph->file, folder_ / "wood.png");
+  EXPECT_THAT(*scene.specimen.micrograph->pixel_size, ElementsAre(2.3e-6, 2.3e-6));
+  EXPECT_EQ(scene.specimen.micrograph->threshold, 150);
+  EXPECT_EQ(scene.grid.particles_per_cell, 2);
+  EXPECT_EQ(scene.numerics.shape_function, ShapeFunction::gimp);
+  EXPECT_EQ(scene.numerics.cfl, std::nullopt);
+  EXPECT_EQ(std::get<Loading>(scene.motion).speed, 10);
+  EXPECT_EQ(std::get<Loading>(scene.motion).strain, 0.6);
+}
+
+TEST_F(SceneDefaults, WithoutMaterialTheWallIsNairns2006)
+{
+  const Scene scene = read(smallest);
+  ASSERT_EQ(scene.materials.size(), 1u);
+  const Material& wall = scene.materials[0];
+  EXPECT_EQ(wall.law, Law::von_mises);
+  EXPECT_EQ(wall.youngs_modulus, 10.6e9);
+  EXPECT_EQ(wall.poisson_ratio, 0.33);
+  EXPECT_EQ(wall.density, 1500);
+  EXPECT_EQ(wall.yield_stress, 500e6);
+}
+
+TEST_F(SceneDefaults, SnapshotsAreSevenFromZeroToTheEnd)
+{
+  EXPECT_THAT(read(smallest).output.snapshot_strains, ElementsAre(0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6));
+  EXPECT_THAT(read(smallest + "output: {snapshots: 3}\n").output.snapshot_strains,
+              ElementsAre(0, 0.3, 0.6));
+  EXPECT_THAT(read(smallest + "output: {snapshots: {count: 1}}\n").output.snapshot_strains,
+              ElementsAre(0.6));
+  const Output listed = read(smallest + "output: {snapshots: {times: [1 us]}}\n").output;
+  EXPECT_THAT(listed.snapshot_times, ElementsAre(1e-6));
+  EXPECT_TRUE(listed.snapshot_strains.empty());
+}
+
+TEST_F(SceneDefaults, OneValueStandsForAllSides)
+{
+  const Scene scene = read(smallest + "  lateral: free\ngrid: {margin: 0.1 mm, spacing: 5 um}\n");
+  EXPECT_THAT(std::get<Loading>(scene.motion).lateral, ElementsAre(Lateral::free, Lateral::free));
+  EXPECT_THAT(scene.grid.margin, ElementsAre(1e-4, 1e-4, 1e-4, 1e-4));
+  EXPECT_THAT(*scene.grid.spacing, ElementsAre(5e-6, 5e-6));
+}
+
+TEST_F(SceneDefaults, ThresholdTakesThreeForms)
+{
+  const auto image = [&](const std::string& lines) {
+    return *read("specimen:\n  micrograph: wood.png\n" + lines + "loading: {speed: 1 m/s}\n")
+                .specimen.micrograph;
+  };
+  EXPECT_EQ(image("  threshold: 90\n").threshold, 90);
+  EXPECT_EQ(image("  threshold: otsu\n").threshold_rule, ThresholdRule::otsu);
+  for (const char* aimed :
+       {"  threshold: {target_relative_density: 40 %}\n", "  target_relative_density: 0.4\n"}) {
+    EXPECT_EQ(image(aimed).threshold_rule, ThresholdRule::target_relative_density);
+    EXPECT_EQ(image(aimed).target_relative_density, 0.4);
+  }
+  EXPECT_TRUE(image("  flip: both\n").flip_vertical);
+  EXPECT_EQ(image("  rotate: 270\n").rotate, 270);
+}
+
+TEST_F(SceneDefaults, AnEmptyLoadCellIsTheDefaultOne)
+{
+  EXPECT_EQ(std::get<Loading>(read(smallest + "  load_cell:\n").motion).load_cell, LoadCell{});
+  EXPECT_EQ(std::get<Loading>(read(smallest).motion).load_cell, std::nullopt);
+}
+
+TEST(InputReference, PageInDocsIsTheOneTheProgramWrites)
+{
+  std::ostringstream written;
+  write_input_reference(written);
+  std::ifstream file(MPM_DOCS_DIR "/input_reference.md");
+  std::ostringstream shipped;
+  shipped << file.rdbuf();
+  EXPECT_TRUE(shipped.str() == written.str())
+      << "Run: mpm_par --input-reference > docs/input_reference.md";
+}
+
+}  // namespace
+}  // namespace mpm::scene

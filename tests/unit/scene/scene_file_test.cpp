@@ -1,0 +1,80 @@
+#include "scene_folder.hpp"
+#include <gmock/gmock.h>
+
+namespace mpm::scene {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+using SceneFile = SceneFolder;
+
+TEST_F(SceneFile, ThatDoesNotExist)
+{
+  EXPECT_THAT(problems_of(folder_ / "b.yaml"),
+              ElementsAre("b.yaml: no such scene file. Check the path (it counts from the working "
+                          "directory)."));
+}
+
+TEST_F(SceneFile, ThatIsADirectory)
+{
+  std::filesystem::create_directory(folder_ / "scenes");
+  EXPECT_THAT(problems_of(folder_ / "scenes"),
+              ElementsAre("scenes: is a directory. Name the scene file inside it."));
+}
+
+TEST_F(SceneFile, ThatIsEmptyOrOnlyComments)
+{
+  const std::string message = "a.yaml: is empty. A scene needs at least 'specimen' and 'loading'.";
+  EXPECT_THAT(problems(""), ElementsAre(message));
+  EXPECT_THAT(problems("# nothing yet\n"), ElementsAre(message));
+}
+
+TEST_F(SceneFile, ThatMayNotBeRead)
+{
+  const auto file = write("a.yaml", smallest);
+  std::filesystem::permissions(file, std::filesystem::perms::none);
+  if (std::ifstream(file).is_open()) GTEST_SKIP() << "this user may read every file";
+  EXPECT_THAT(problems_of(file), ElementsAre("a.yaml: cannot be read. Check its permissions."));
+}
+
+TEST_F(SceneFile, WithASyntaxErrorNamesThePlace)
+{
+  EXPECT_THAT(problems("specimen: [1, 2\nloading: 3\n"),
+              ElementsAre("a.yaml:2:8: not YAML: end of sequence flow not found."));
+}
+
+TEST_F(SceneFile, IndentedWithTabsIsTold)
+{
+  EXPECT_THAT(problems("specimen:\n\tmicrograph: wood.png\n"),
+              ElementsAre(HasSubstr("YAML does not indent with tabs: use spaces.")));
+}
+
+TEST_F(SceneFile, ThatIsAList)
+{
+  EXPECT_THAT(problems("- 1\n- 2\n"),
+              ElementsAre("a.yaml:1:1: the scene is [1, 2] (must be a map of keys)."));
+}
+
+TEST_F(SceneFile, WithTwoDocuments)
+{
+  EXPECT_THAT(problems(smallest + "---\ntitle: b\n"),
+              ElementsAre(HasSubstr("a second document starts here")));
+}
+
+TEST_F(SceneFile, WithAnAnchorInsideItself)
+{
+  EXPECT_THAT(problems("a: &x [*x]\n"), ElementsAre(HasSubstr("nested too deeply")));
+}
+
+TEST_F(SceneFile, NamesThePictureFromItsOwnFolder)
+{
+  std::filesystem::create_directory(folder_ / "scenes");
+  write("scenes/a.yaml",
+        "specimen: {micrograph: ../wood.png}\nloading: {piston: top, speed: 1 m/s}\n");
+  EXPECT_EQ(read_scene(folder_ / "scenes" / "a.yaml").specimen.micrograph->file,
+            folder_ / "wood.png");
+}
+
+}  // namespace
+}  // namespace mpm::scene
