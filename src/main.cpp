@@ -72,7 +72,7 @@ int main(int argc, char** argv)
   std::string wrong_usage;
   std::vector<std::string> petsc;
   try {
-    asked = scene::parse_command_line({argv + 1, argv + argc});
+    asked = scene::parse_command_line({argv + 1, argv + argc}, version_text());
     if (const auto* command_line = std::get_if<scene::CommandLine>(&asked))
       petsc = command_line->petsc;
   } catch (const InputError& error) {

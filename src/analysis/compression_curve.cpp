@@ -1,11 +1,12 @@
-#include <fmt/core.h>
-
-#include <algorithm>
-#include <cmath>
 #include <mpm/analysis/compression_curve.hpp>
 #include <mpm/analysis/sampled_curve.hpp>
 #include <mpm/analysis/straight_line.hpp>
+
+#include <algorithm>
+#include <cmath>
 #include <vector>
+
+#include <fmt/core.h>
 
 namespace mpm::analysis {
 
@@ -100,7 +101,8 @@ std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, dou
   return plateau;
 }
 
-/// Through the strains at which the curve first reaches two and four times the plateau's last stress.
+/// Through the strains at which the curve first reaches two and four times the plateau's last
+/// stress.
 std::optional<Line> densification_line(const SampledCurve& binned, double plateau_end)
 {
   const auto reaches = [&](double from, double stress) -> std::optional<double> {
@@ -163,8 +165,8 @@ CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& op
   }
 
   const std::optional<Knee> knee = softening_knee(fine, end);
-  const Window window = elastic_window(knee ? knee->position : std::min(end, knee_range),
-                                      options.discard_strain);
+  const Window window =
+      elastic_window(knee ? knee->position : std::min(end, knee_range), options.discard_strain);
   const std::optional<Line> elastic = fit_elastic(curve, window, options.ringing_strain);
   if (elastic && elastic->slope > 0) {
     found.modulus = elastic->slope;

@@ -1,16 +1,17 @@
 /// Prints modulus, onset of buckling and onset of densification of a measured or computed curve.
 
-#include <fmt/core.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstdio>
 #include <mpm/analysis/compression_curve.hpp>
 #include <mpm/analysis/compression_summary.hpp>
 #include <mpm/core/error.hpp>
 #include <mpm/core/units.hpp>
 #include <mpm/output/history.hpp>
 #include <mpm/output/summary.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
 namespace {
 
@@ -24,7 +25,7 @@ using mpm::output::HistoryTable;
 struct Request {
   std::string file;
   std::string strain_column = "strain";
-  std::string stress_column = "stress_piston";
+  std::string stress_column = "stress";
   std::string discard = "0";
   std::string ringing = "0.4 %";
   std::string json;
@@ -51,8 +52,8 @@ try {
   for (double& value : values) value *= factor;
   return values;
 } catch (const mpm::UnitError& error) {
-  throw InputError(fmt::format("{}:1: column '{}': {}. {}", file, name, error.what(),
-                               error.remedy()));
+  throw InputError(
+      fmt::format("{}:1: column '{}': {}. {}", file, name, error.what(), error.remedy()));
 } catch (const InputError& error) {
   throw InputError(fmt::format("{}:1: {}", file, error.what()));
 }

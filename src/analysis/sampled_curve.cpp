@@ -1,9 +1,10 @@
+#include <mpm/analysis/sampled_curve.hpp>
+#include <mpm/analysis/straight_line.hpp>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mpm/analysis/sampled_curve.hpp>
-#include <mpm/analysis/straight_line.hpp>
 #include <optional>
 
 namespace mpm::analysis {
@@ -29,7 +30,8 @@ std::vector<Neighbours> neighbours(const std::vector<double>& x, double reach)
   return ranges;
 }
 
-/// The value at `centre` of the least-squares parabola: it follows a rounded corner, a line does not.
+/// The value at `centre` of the least-squares parabola: it follows a rounded corner, a line does
+/// not.
 double parabola_at(double centre, double reach, std::span<const double> x,
                    std::span<const double> y)
 {
@@ -113,22 +115,20 @@ std::vector<double> local_slope(const SampledCurve& curve, double reach)
   return slopes;
 }
 
-BlockBootstrap::BlockBootstrap(const SampledCurve& curve, double block_strain)
-    : curve_(&curve)
+BlockBootstrap::BlockBootstrap(const SampledCurve& curve, double block_strain) : curve_(&curve)
 {
   constexpr std::size_t fewest = 5;  // below, a parabola goes through the points themselves
   // One period to either side averages the ringing out and keeps the shape.
   const std::vector<Neighbours> ranges = neighbours(curve.strain, block_strain);
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const auto [begin, count] = ranges[i];
-    smooth_.push_back(count < fewest
-                          ? curve.stress[i]
-                          : parabola_at(curve.strain[i], block_strain,
-                                        std::span(curve.strain).subspan(begin, count),
-                                        std::span(curve.stress).subspan(begin, count)));
+    smooth_.push_back(count < fewest ? curve.stress[i]
+                                     : parabola_at(curve.strain[i], block_strain,
+                                                   std::span(curve.strain).subspan(begin, count),
+                                                   std::span(curve.stress).subspan(begin, count)));
     residual_.push_back(curve.stress[i] - smooth_.back());
-    const double since = block_begins_.empty() ? block_strain
-                                               : curve.strain[i] - curve.strain[block_begins_.back()];
+    const double since =
+        block_begins_.empty() ? block_strain : curve.strain[i] - curve.strain[block_begins_.back()];
     if (since >= block_strain) block_begins_.push_back(i);
   }
   block_begins_.push_back(curve.strain.size());

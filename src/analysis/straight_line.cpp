@@ -1,7 +1,8 @@
+#include <mpm/analysis/straight_line.hpp>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <mpm/analysis/straight_line.hpp>
 #include <numbers>
 #include <numeric>
 
@@ -9,7 +10,7 @@ namespace mpm::analysis {
 
 namespace {
 
-constexpr int knee_positions = 350;      ///< steps of 0.025 % strain over the usual range
+constexpr int knee_positions = 350;  ///< steps of 0.025 % strain over the usual range
 constexpr std::ptrdiff_t points_of_a_side = 4;
 constexpr std::size_t fewest_for_ringing = 12;  ///< three points for each of four coefficients
 

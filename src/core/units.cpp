@@ -33,7 +33,7 @@ const QuantityRow& row(Quantity quantity)
       {velocity, "a velocity", "m/s", "10 m/s", {"m/s", "mm/s", "km/s"}, 1},
       {pressure, "a pressure", "Pa", "10.6 GPa", {"MPa", "GPa", "kPa", "Pa", "N/mm^2"}, 4},
       {density, "a density", "kg/m^3", "1500 kg/m^3", {"kg/m^3", "g/cm^3"}, 1},
-      {angle, "an angle", "radian", "30 deg", {"deg", "rad", "degree", "radian", "°"}, 1}};
+      {angle, "an angle", "rad", "30 deg", {"deg", "rad", "degree", "radian", "°"}, 1}};
   return rows[static_cast<std::size_t>(quantity)];
 }
 

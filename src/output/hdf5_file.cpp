@@ -1,15 +1,16 @@
-#include <fmt/core.h>
-#include <hdf5.h>
-
-#include <algorithm>
-#include <array>
 #include <mpm/core/error.hpp>
 #include <mpm/output/agreement.hpp>
 #include <mpm/output/hdf5_file.hpp>
 #include <mpm/output/replace_file.hpp>
+
+#include <algorithm>
+#include <array>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
+
+#include <fmt/core.h>
+#include <hdf5.h>
 
 namespace mpm::output {
 
@@ -169,8 +170,8 @@ void Hdf5File::write(const std::string& dataset, const std::string& unit, int co
   if (all > 0) {  // HDF5 1.10 fails to write no rows to a dataset of none
     const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
     H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
-    const bool written = H5Dwrite(target, native_type<T>(), memory_space, file_space, transfer,
-                                  values.data()) >= 0;
+    const bool written =
+        H5Dwrite(target, native_type<T>(), memory_space, file_space, transfer, values.data()) >= 0;
     agree(written ? "" : "write dataset " + dataset);
   }
   agree(attach(target, "unit", unit) ? "" : "write the unit of dataset " + dataset);

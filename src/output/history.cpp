@@ -1,14 +1,15 @@
-#include <fmt/format.h>
+#include <mpm/core/error.hpp>
+#include <mpm/output/history.hpp>
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <mpm/core/error.hpp>
-#include <mpm/output/history.hpp>
 #include <optional>
 #include <string_view>
 #include <system_error>
+
+#include <fmt/format.h>
 
 namespace mpm::output {
 
@@ -115,9 +116,10 @@ HistoryTable read_history(const std::filesystem::path& file)
   std::ifstream stream(file);
   std::string line;
   if (!stream || !std::getline(stream, line))
-    throw InputError(fmt::format("{}: cannot be read or is empty. Give a CSV file with a header "
-                                 "line such as 'strain [1],stress_piston [Pa]'.",
-                                 file.string()));
+    throw InputError(
+        fmt::format("{}: cannot be read or is empty. Give a CSV file with a header "
+                    "line such as 'strain [1],stress_piston [Pa]'.",
+                    file.string()));
   if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets mark UTF-8 so
   HistoryTable table;
   for (const std::string_view cell : cells_of(line)) table.columns.push_back(column_of(cell));

@@ -1,12 +1,13 @@
-#include <fcntl.h>
-#include <fmt/core.h>
-#include <unistd.h>
+#include <mpm/core/error.hpp>
+#include <mpm/output/replace_file.hpp>
 
 #include <cerrno>
 #include <cstring>
-#include <mpm/core/error.hpp>
-#include <mpm/output/replace_file.hpp>
 #include <system_error>
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
 
 namespace mpm::output {
 
@@ -117,9 +118,10 @@ void make_directory(const std::filesystem::path& directory)
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error)
-    throw FileError(fmt::format("{}: cannot create the directory ({}). Choose another output "
-                                "directory or remove what stands there.",
-                                directory.string(), error.message()));
+    throw FileError(
+        fmt::format("{}: cannot create the directory ({}). Choose another output "
+                    "directory or remove what stands there.",
+                    directory.string(), error.message()));
 }
 
 }  // namespace mpm::output

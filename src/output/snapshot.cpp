@@ -1,14 +1,15 @@
-#include <fmt/core.h>
-
-#include <limits>
 #include <mpm/core/error.hpp>
 #include <mpm/output/agreement.hpp>
 #include <mpm/output/hdf5_file.hpp>
 #include <mpm/output/replace_file.hpp>
 #include <mpm/output/snapshot.hpp>
+
+#include <limits>
 #include <numeric>
 #include <span>
 #include <system_error>
+
+#include <fmt/core.h>
 
 namespace mpm::output {
 
@@ -50,7 +51,7 @@ void SnapshotSeries::write(const Snapshot& snapshot)
   MPM_ASSERT(snapshot.position.size() % 3 == 0);
   const std::size_t mine = snapshot.position.size() / 3;
   XdmfGrid entry;
-  entry.file = fmt::format("snapshots/{:06}.h5", entries_.size());
+  entry.file = fmt::format("snapshots/{:06}.h5", written_);
   entry.time = snapshot.time;
   entry.strain = snapshot.strain;
   std::int64_t before = 0;
@@ -81,10 +82,13 @@ void SnapshotSeries::write(const Snapshot& snapshot)
         },
         field.values);
     // The alternatives of the variant stand in the order of NumberType.
-    entry.arrays.push_back({field.name, field.components, NumberType(field.values.index())});
+    entry.arrays.push_back(
+        {field.name, field.unit, field.components, NumberType(field.values.index())});
   }
   file.finish();
 
+  ++written_;
+  if (entry.particles == 0) return;  // ParaView divides by the number of rows and ends
   entries_.push_back(std::move(entry));
   on_rank_zero(comm_, [this] { write_xdmf(directory_ / (name_ + ".xdmf"), name_, entries_); });
 }

@@ -1,7 +1,9 @@
-#include <algorithm>
-#include <cmath>
 #include <mpm/output/replace_file.hpp>
 #include <mpm/output/summary.hpp>
+
+#include <algorithm>
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 namespace mpm::output {
@@ -73,6 +75,9 @@ std::string Summary::text() const
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-void Summary::write(const std::filesystem::path& file) const { replace_file(file, text() + '\n'); }
+void Summary::write(const std::filesystem::path& file) const
+{
+  replace_file(file, text() + '\n');
+}
 
 }  // namespace mpm::output

@@ -1,9 +1,10 @@
-#include <fmt/core.h>
-
 #include <mpm/output/replace_file.hpp>
 #include <mpm/output/xdmf.hpp>
-#include <pugixml.hpp>
+
 #include <sstream>
+
+#include <fmt/core.h>
+#include <pugixml.hpp>
 
 namespace mpm::output {
 
@@ -22,6 +23,14 @@ void append_array(pugi::xml_node parent, const XdmfGrid& grid, const std::string
   item.text() = fmt::format("{}:/particles/{}", grid.file, dataset).c_str();
 }
 
+/// For scripts: ParaView does not show it.
+void append_note(pugi::xml_node parent, const char* name, const std::string& value)
+{
+  pugi::xml_node note = parent.append_child("Information");
+  note.append_attribute("Name") = name;
+  note.append_attribute("Value") = value.c_str();
+}
+
 /// The readers of ParaView disagree on Tensor6; a matrix of six columns is the same in all.
 const char* attribute_type(int components)
 {
@@ -34,9 +43,7 @@ void append_grid(pugi::xml_node series, const std::string& name, const XdmfGrid&
   node.append_attribute("Name") = name.c_str();
   node.append_attribute("GridType") = "Uniform";
   node.append_child("Time").append_attribute("Value") = fmt::format("{}", grid.time).c_str();
-  pugi::xml_node strain = node.append_child("Information");
-  strain.append_attribute("Name") = "strain";
-  strain.append_attribute("Value") = fmt::format("{}", grid.strain).c_str();
+  append_note(node, "strain", fmt::format("{}", grid.strain));
 
   // Without the connectivity some readers see points but no cells, and draw nothing.
   pugi::xml_node topology = node.append_child("Topology");
@@ -54,6 +61,7 @@ void append_grid(pugi::xml_node series, const std::string& name, const XdmfGrid&
     attribute.append_attribute("Name") = array.name.c_str();
     attribute.append_attribute("AttributeType") = attribute_type(array.components);
     attribute.append_attribute("Center") = "Node";
+    append_note(attribute, "unit", array.unit);
     append_array(attribute, grid, array.name, array.components, array.type);
   }
 }

@@ -42,7 +42,8 @@ void check_materials(const Checked& checked)
     if (material.name == "void" || material.name.empty())
       checked.refuse(path + ".name", "stands for no material", "Choose another name");
     if (materials.size() > 1 && !checked.given(path + ".name")) {
-      checked.miss(path + ".name", "several materials are told apart by name", "Add name: ...");
+      checked.miss(path + ".name", "several materials are told apart by name",
+                   "Add e.g. name: cell_wall");
       continue;
     }
     for (std::size_t j = 0; j < i; ++j) {

@@ -26,11 +26,11 @@ struct Options {
   bool reference = false;
   CLI::App app{"Material point method: crushes a specimen read from a micrograph."};
 
-  Options()
+  explicit Options(const std::string& version)
   {
     app.name("mpm_par");
     app.footer("Run in parallel: mpirun -n N mpm_par [options] scene.yaml [PETSc options]");
-    app.set_version_flag("--version", "mpm_par " MPM_VERSION);
+    app.set_version_flag("--version", version);
     app.add_option("scene", command_line.scene, "Scene file (YAML)");
     app.add_flag("--check", command_line.check, "Read the scene, print the plan, run nothing");
     app.add_option("-o,--output", command_line.output, "Folder of results (results/NAME)")
@@ -95,9 +95,10 @@ std::vector<std::string> without_petsc(const std::vector<std::string>& arguments
 
 }  // namespace
 
-std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::string>& arguments)
+std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::string>& arguments,
+                                                     const std::string& version)
 {
-  Options options;
+  Options options(version);
   std::vector<std::string> ours =
       without_petsc(arguments, options.names(), options.command_line.petsc);
   std::ranges::reverse(ours);  // the order the library takes words from the back in
@@ -106,7 +107,7 @@ std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::stri
   } catch (const CLI::CallForHelp&) {
     return Answer{options.app.help()};
   } catch (const CLI::CallForVersion&) {
-    return Answer{"mpm_par " MPM_VERSION "\n"};
+    return Answer{version};
   } catch (const CLI::ParseError& error) {
     throw InputError(fmt::format("{}. See mpm_par --help.", error.what()));
   }

@@ -17,6 +17,16 @@ std::string Place::text() const
   return line > 0 ? fmt::format("{}:{}:{}", origin, line, column) : origin;
 }
 
+namespace {
+/// A message is one line, however long the value.
+std::string shortened(std::string text)
+{
+  constexpr std::size_t longest = 60;
+  std::ranges::replace(text, '\n', ' ');
+  return text.size() > longest ? text.substr(0, longest) + "..." : text;
+}
+}  // namespace
+
 Node Node::of(std::string plain_scalar)
 {
   Node node;
@@ -54,7 +64,8 @@ std::string Node::shown() const
     case Kind::nothing:
       return "empty";
     case Kind::scalar:
-      return !quoted && split_number_and_unit(scalar) ? scalar : fmt::format("'{}'", scalar);
+      return !quoted && split_number_and_unit(scalar) ? shortened(scalar)
+                                                      : "'" + shortened(scalar) + "'";
     case Kind::map:
       return "a map";
     case Kind::list:
@@ -149,10 +160,7 @@ Node read_document(const std::filesystem::path& file)
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();
-  if (!stream || !stream.is_open())
-    throw InputError(fs::file_size(file, ignored) == 0
-                         ? name + ": is empty. A scene needs at least 'specimen' and 'loading'."
-                         : name + ": cannot be read. Check its permissions.");
+  if (!stream.is_open()) throw InputError(name + ": cannot be read. Check its permissions.");
   Node root = parse_yaml(text.str(), name, false);
   if (root.kind == Node::Kind::nothing)
     throw InputError(name + ": is empty. A scene needs at least 'specimen' and 'loading'.");

@@ -38,8 +38,11 @@ void report_missing(const Given& map, const std::string& key, const std::string&
                     const std::string& type)
 {
   const std::string path = joined(map.path, key);
+  std::string what = ": " + type;  // as on the reference page, without its markup
+  std::erase(what, '`');
+  if (type.starts_with("a map")) what = " as a map of keys";
   map.problems.add(map.node.place, path,
-                   fmt::format("{} is missing ({}). Add it: {}.", path, help, type));
+                   fmt::format("{} is missing ({}). Add it{}.", path, help, what));
 }
 
 std::string link_to(std::string_view section)

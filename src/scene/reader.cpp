@@ -11,7 +11,8 @@ namespace mpm::scene {
 
 namespace {
 
-/// The cell wall of Nairn (2006), Wood and Fiber Science 38:576-591, for scenes without a material.
+/// For scenes without a material: the cell wall of J. A. Nairn (2006), "Numerical simulations of
+/// transverse compression and densification in wood".
 Material cell_wall()
 {
   Material material;

@@ -17,6 +17,10 @@ using micrograph::SpecimenModel;
 constexpr LocalIndex ghost_cells = 2;
 /// Share of the specimen's width left empty beside a free lateral edge.
 constexpr double free_margin = 0.25;
+/// Length of the default smooth start in crossings of the specimen by the fastest wave. Waves in
+/// wood run at half of that speed or less: two to four of its crossings, so that piston and edge
+/// feel about the same force while the cell walls are still elastic.
+constexpr double crossings_of_start = 8;
 
 int axis_of(scene::Side side) { return side == scene::Side::left || side == scene::Side::right ? 0 : 1; }
 bool upper_of(scene::Side side) { return side == scene::Side::right || side == scene::Side::top; }
@@ -164,7 +168,22 @@ Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
         std::max(layout.wave_speed, make_law(cell, scene.numerics.plane)->wave_speed());
   }
   layout.cfl = default_cfl(scene.numerics);
+  if (loading) {
+    const int axis = axis_of(loading->piston);
+    const double crossing = specimen.size[axis] / layout.wave_speed;
+    layout.piston = {loading->speed, loading->ramp_time.value_or(crossings_of_start * crossing)};
+    layout.end_time = time_of_strain(scene, specimen, layout.piston, loading->strain);
+  } else {
+    layout.end_time = std::get<scene::FreeMotion>(scene.motion).end_time;
+  }
   return layout;
+}
+
+double time_of_strain(const scene::Scene& scene, const SpecimenModel& specimen,
+                      const WallMotion& piston, double strain)
+{
+  const int axis = axis_of(std::get<scene::Loading>(scene.motion).piston);
+  return strain > 0 ? piston.time_of(strain * specimen.size[axis]) : 0.0;
 }
 
 namespace {
@@ -247,9 +266,10 @@ void add_apparatus(const scene::Scene& scene, const SpecimenModel& specimen, con
   double edge = upper ? 0 : specimen.size[axis];
   if (loading.load_cell)
     edge += (upper ? -1 : 1) * loading.load_cell->cells * layout.geometry.spacing[axis];
-  const double speed = upper ? -loading.speed : loading.speed;
-  apparatus.piston = wall(axis, upper, upper ? specimen.size[axis] : 0,
-                          {speed, loading.ramp_time}, grip_of(loading.grip));
+  const WallMotion inwards{upper ? -layout.piston.speed : layout.piston.speed,
+                           layout.piston.ramp_time};
+  apparatus.piston =
+      wall(axis, upper, upper ? specimen.size[axis] : 0, inwards, grip_of(loading.grip));
   apparatus.edge = wall(axis, !upper, edge, {}, grip_of(loading.grip));
   for (int k = 0; k < 2; ++k)
     if (loading.lateral[k] != scene::Lateral::free)

@@ -72,16 +72,6 @@ double first_time_step(const Layout& layout)
          (layout.wave_speed + layout.largest_speed);
 }
 
-double end_time(const scene::Scene& scene, const micrograph::SpecimenModel& specimen)
-{
-  if (const auto* motion = std::get_if<scene::FreeMotion>(&scene.motion)) return motion->end_time;
-  const auto& loading = std::get<scene::Loading>(scene.motion);
-  const bool horizontal =
-      loading.piston == scene::Side::left || loading.piston == scene::Side::right;
-  const double length = specimen.size[horizontal ? 0 : 1];
-  return WallMotion{loading.speed, loading.ramp_time}.time_of(loading.strain * length);
-}
-
 std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
                       const Layout& layout, int ranks)
 {
@@ -89,7 +79,7 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
   for (const double layer : layout.layer_weights[0]) particles += layer;
   if (layout.load_cell) particles += double(layout.load_cell->locations.size());
   const double dt = first_time_step(layout);
-  double steps = std::ceil(end_time(scene, specimen) / dt);
+  double steps = std::ceil(layout.end_time / dt);
   if (scene.steps) steps = std::min(steps, double(*scene.steps));
 
   auto transfer = make_transfer<2>(ShapeKind(int(scene.numerics.shape_function)),

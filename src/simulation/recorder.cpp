@@ -21,6 +21,7 @@ std::vector<output::HistoryColumn> columns(const std::optional<Apparatus>& appar
   std::vector<output::HistoryColumn> list{{"time", "s"}};
   if (apparatus) {
     list.push_back({"strain", "1"});
+    list.push_back({"stress", "Pa"});
     list.push_back({"stress_piston", "Pa"});
     list.push_back({"stress_edge", "Pa"});
     if (apparatus->load_cell_body >= 0) list.push_back({"stress_load_cell", "Pa"});
@@ -41,7 +42,7 @@ std::vector<double> row(const HistoryLine& line, const std::optional<Apparatus>&
 {
   std::vector<double> values{line.time};
   if (apparatus) {
-    values.insert(values.end(), {line.strain, line.piston_stress, line.edge_stress});
+    values.insert(values.end(), {line.strain, line.stress(), line.piston_stress, line.edge_stress});
     if (apparatus->load_cell_body >= 0) values.push_back(line.load_cell_stress);
   }
   values.insert(values.end(),

@@ -38,17 +38,12 @@ std::vector<BoundaryCondition<2>*> pointers(
 
 /// Moments of snapshots, ascending, s.
 std::vector<double> snapshot_moments(const scene::Scene& scene,
-                                     const micrograph::SpecimenModel& specimen)
+                                     const micrograph::SpecimenModel& specimen,
+                                     const Layout& layout)
 {
   std::vector<double> times = scene.output.snapshot_times;
-  if (const auto* loading = std::get_if<scene::Loading>(&scene.motion)) {
-    scene::Scene part = scene;
-    for (const double strain : scene.output.snapshot_strains) {
-      std::get<scene::Loading>(part.motion).strain = strain;
-      times.push_back(strain > 0 ? end_time(part, specimen) : 0.0);
-    }
-    (void)loading;
-  }
+  for (const double strain : scene.output.snapshot_strains)
+    times.push_back(time_of_strain(scene, specimen, layout.piston, strain));
   std::ranges::sort(times);
   return times;
 }
@@ -71,8 +66,8 @@ class Run {
                  {update_order_of(scene), 1e-12 * layout.largest_particle_mass}),
         history_(folder, stepper_, conditions_, model_.apparatus),
         snapshots_(scene, folder, comm),
-        moments_(snapshot_moments(scene, specimen)),
-        end_(end_time(scene, specimen))
+        moments_(snapshot_moments(scene, specimen, layout)),
+        end_(layout.end_time)
   {
     particles_ = stepper_.particles();
     sum_over_ranks(comm_, std::span(&particles_, 1));
@@ -155,7 +150,7 @@ class Run {
     const double by_steps =
         scene_.steps ? double(stepper_.steps()) / double(*scene_.steps) : 0.0;
     progress_.show({std::max(stepper_.time() / end_, by_steps), long(stepper_.steps()), line.time,
-                    line.strain, line.piston_stress, model_.apparatus.has_value(),
+                    line.strain, line.stress(), model_.apparatus.has_value(),
                     long(stepper_.steps() * particles_)});
   }
 
@@ -180,11 +175,13 @@ class Run {
     std::vector<double> strain, stress;
     for (const HistoryLine& line : history_.lines()) {
       strain.push_back(line.strain);
-      stress.push_back(line.piston_stress);
+      stress.push_back(line.stress());
     }
-    const auto& loading = std::get<scene::Loading>(scene_.motion);
+    // Before the first wave has come back the specimen is not loaded as a whole.
+    const double length = model_.apparatus->length;
     analysis::CurveOptions options;
-    options.discard_strain = 2 * loading.speed / layout_.wave_speed;
+    options.discard_strain =
+        layout_.piston.displacement(2 * length / layout_.wave_speed) / length;
     return analysis::compression_properties(strain, stress, options);
   }
 
@@ -204,6 +201,7 @@ class Run {
     summary.set("steps", stepper_.steps());
     summary.set("time_step", first_time_step(layout_));
     summary.set("end_time", stepper_.time());
+    if (model_.apparatus) summary.set("ramp_time", layout_.piston.ramp_time);
     summary.set("strain", strain());
     summary.set("wall_seconds", seconds_since(start_));
     summary.set("loop_seconds", loop_seconds_);

@@ -1,5 +1,4 @@
 # Snapshots written by 1, 2 and 3 ranks, and the series of 2 ranks read back through ParaView.
-find_package(nlohmann_json REQUIRED)
 mpm_parallel_test(snapshot_test RANKS 1 2 3 SOURCES ${CMAKE_CURRENT_LIST_DIR}/snapshot_test.cpp
                   LIBRARIES mpm_output mpm_core nlohmann_json::nlohmann_json ${HDF5_C_LIBRARIES})
 target_include_directories(snapshot_test PRIVATE ${HDF5_C_INCLUDE_DIRS})
@@ -8,11 +7,11 @@ target_compile_definitions(snapshot_test PRIVATE
 
 set(series ${CMAKE_BINARY_DIR}/snapshot_test_files/for_paraview)
 add_test(NAME paraview_series_is_written
-         COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 2 $<TARGET_FILE:snapshot_test>
-                 --gtest_filter=SnapshotSeries.ForParaView*)
+         COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 2 ${MPIEXEC_PREFLAGS}
+                 $<TARGET_FILE:snapshot_test> --gtest_filter=SnapshotSeries.ForParaView*)
 set_tests_properties(paraview_series_is_written PROPERTIES
   FIXTURES_SETUP paraview_series LABELS regression PROCESSORS 2
-  ENVIRONMENT "MPM_SERIES_DIRECTORY=${series};OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe;OMPI_MCA_hwloc_base_binding_policy=none;PRTE_MCA_hwloc_default_binding_policy=none")
+  ENVIRONMENT "MPM_SERIES_DIRECTORY=${series};${MPM_MPI_ENVIRONMENT}")
 
 find_program(PVPYTHON_EXECUTABLE pvpython)
 if(PVPYTHON_EXECUTABLE)

@@ -11,22 +11,22 @@ namespace mpm::analysis {
 struct CurvePoint {
   double strain;
   double stress;
-  double strain_error = 0;   ///< two standard deviations over bootstrap resamples
+  double strain_error = 0;  ///< two standard deviations over bootstrap resamples
   double stress_error = 0;
 };
 
 struct CompressionProperties {
-  std::optional<double> modulus;          ///< Pa, slope of the linear part; line not forced through 0
+  std::optional<double> modulus;  ///< Pa, slope of the linear part; line not forced through 0
   double modulus_error = 0;
-  double elastic_intercept = 0;           ///< Pa, of that line at zero strain
+  double elastic_intercept = 0;  ///< Pa, of that line at zero strain
   std::optional<CurvePoint> buckling;
   std::optional<CurvePoint> densification;
   std::optional<CurvePoint> energy_efficiency;  ///< its strain maximises (1/stress) int stress
-  std::string remark;                     ///< why something is missing; empty if nothing is
+  std::string remark;                           ///< why something is missing; empty if nothing is
 };
 
 struct CurveOptions {
-  double discard_strain = 0;   ///< start-up transient, 2 V/c_p
+  double discard_strain = 0;      ///< start-up transient, 2 V/c_p
   double ringing_strain = 0.004;  ///< strain of one ringing period: block of the bootstrap
   int resamples = 50;
 };

@@ -15,8 +15,8 @@ struct Line {
 /// Least squares. Nothing if the points do not span an x interval.
 std::optional<Line> fit_line(std::span<const double> x, std::span<const double> y);
 
-/// The same with an oscillation of that period fitted along, so that a window of few periods does not
-/// take a part of the ringing for slope. A plain line if the window is shorter than one period.
+/// The same with an oscillation of that period fitted along, so that a window of few periods does
+/// not take a part of the ringing for slope. A plain line if the window is shorter than one period.
 std::optional<Line> fit_line_under_ringing(std::span<const double> x, std::span<const double> y,
                                            double period);
 

@@ -1,10 +1,10 @@
 #pragma once
 /// Errors of one rank made known to all, so that a collective sequence ends on every rank at once.
 
-#include <mpi.h>
-
 #include <functional>
 #include <string>
+
+#include <mpi.h>
 
 namespace mpm::output {
 

@@ -1,12 +1,12 @@
 #pragma once
 /// A new HDF5 file written by all ranks together; every call to the HDF5 library is behind this.
 
-#include <mpi.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
+
+#include <mpi.h>
 
 namespace mpm::output {
 
@@ -16,8 +16,8 @@ enum class Compression { none, gzip };  ///< gzip: half the size, three to four 
 /// fails, every rank throws the same FileError.
 class Hdf5File {
  public:
-  /// Room for the bytes expected is reserved on the disk first: MPI's own layer may lose a write to a
-  /// full disk without a word, or wait for ever.
+  /// Room for the bytes expected is reserved on the disk first: MPI's own layer may lose a write to
+  /// a full disk without a word, or wait for ever.
   Hdf5File(MPI_Comm comm, std::filesystem::path file, Compression compression,
            std::int64_t expected_bytes);
   ~Hdf5File();  ///< A file that was not finished is removed.

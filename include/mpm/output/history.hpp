@@ -34,7 +34,7 @@ class HistoryFile {
 /// A history as read back: columns by name without the unit.
 struct HistoryTable {
   std::vector<HistoryColumn> columns;
-  std::vector<std::vector<double>> values;  ///< values[column][line]
+  std::vector<std::vector<double>> values;                               ///< values[column][line]
   const std::vector<double>& operator[](const std::string& name) const;  ///< throws InputError
   bool has(const std::string& name) const;
 };

@@ -7,7 +7,8 @@
 
 namespace mpm::output {
 
-/// The name a file has until it is complete: beside it, so that the rename stays on one file system.
+/// The name a file has until it is complete: beside it, so that the rename stays on one file
+/// system.
 std::filesystem::path temporary_name(const std::filesystem::path& file);
 
 /// Syncs the temporary file, renames it and syncs the directory. Throws FileError.

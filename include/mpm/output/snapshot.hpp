@@ -1,14 +1,15 @@
 #pragma once
 /// A picture of all particles at one moment, written collectively by all ranks.
 
-#include <mpi.h>
+#include <mpm/output/xdmf.hpp>
 
 #include <cstdint>
 #include <filesystem>
-#include <mpm/output/xdmf.hpp>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include <mpi.h>
 
 namespace mpm::output {
 
@@ -29,7 +30,8 @@ struct Snapshot {
 };
 
 /// One HDF5 file per snapshot (temporary name, closed, synced, renamed: a kill never harms what was
-/// written before) and one XDMF file of the series, valid at every moment.
+/// written before) and one XDMF file of the series, valid at every moment. A
+/// snapshot without particles has its file but no place in the series.
 class SnapshotSeries {
  public:
   struct Options {
@@ -43,14 +45,15 @@ class SnapshotSeries {
   /// Collective. Throws FileError on every rank if any rank could not write.
   void write(const Snapshot& snapshot);
 
-  int written() const { return int(entries_.size()); }
+  int written() const { return written_; }
 
  private:
   MPI_Comm comm_;
   std::filesystem::path directory_;
   std::string name_;
   Options options_;
-  std::vector<XdmfGrid> entries_;
+  int written_ = 0;
+  std::vector<XdmfGrid> entries_;  ///< of the snapshots with any particle
 };
 
 }  // namespace mpm::output

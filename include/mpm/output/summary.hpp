@@ -35,8 +35,8 @@ class Summary {
   /// this summary lives and the key is not set to something else.
   Summary& section(const std::string& key);
 
-  std::string text() const;                               ///< indented JSON
-  void write(const std::filesystem::path& file) const;    ///< whole or not at all; throws FileError
+  std::string text() const;                             ///< indented JSON
+  void write(const std::filesystem::path& file) const;  ///< whole or not at all; throws FileError
 
  private:
   using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string,

@@ -12,6 +12,7 @@ enum class NumberType { float64, int64, int32 };
 
 struct XdmfArray {
   std::string name;
+  std::string unit;
   int components = 1;  ///< 1, 3 or 6
   NumberType type = NumberType::float64;
 };
@@ -19,7 +20,7 @@ struct XdmfArray {
 /// The particles at one moment: arrays below /particles of FILE, named relative to the XDMF file.
 struct XdmfGrid {
   std::string file;
-  double time = 0;    ///< s
+  double time = 0;  ///< s
   double strain = 0;
   std::int64_t particles = 0;
   NumberType connectivity = NumberType::int32;

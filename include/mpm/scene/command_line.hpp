@@ -25,8 +25,9 @@ struct Answer {
   std::string text;
 };
 
-/// `arguments` without the program's name. Throws InputError on wrong usage.
-std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::string>& arguments);
+/// `arguments` without the program's name; `version` is the answer to --version. Throws InputError on wrong usage.
+std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::string>& arguments,
+                                                     const std::string& version);
 
 /// Where the results go: --output, or results/NAME.
 std::filesystem::path results_folder(const CommandLine& command_line, const Scene& scene);

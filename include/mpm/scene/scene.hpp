@@ -159,7 +159,8 @@ struct Loading {
   Side piston = Side::right;
   double speed = 0;              ///< m/s
   double strain = 0.6;           ///< end of the run
-  double ramp_time = 0;          ///< s, smooth start (0: at once)
+  /// s, smooth start (0: at once). Default: eight times what the fastest wave needs to cross.
+  std::optional<double> ramp_time;
   Grip grip = Grip::stick;       ///< of piston and fixed edge
   std::array<Lateral, 2> lateral{Lateral::rigid, Lateral::rigid};  ///< lower (left), upper (right)
   std::optional<LoadCell> load_cell;

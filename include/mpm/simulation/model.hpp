@@ -21,6 +21,10 @@ struct Apparatus {
   int load_cell_body = -1;
 };
 
+/// Time at which the piston reaches a strain, s.
+double time_of_strain(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+                      const WallMotion& piston, double strain);
+
 /// What does not depend on the rank.
 struct Layout {
   GridGeometry<2> geometry;
@@ -32,6 +36,9 @@ struct Layout {
   double wave_speed;                      ///< m/s, of the stiffest body
   double cfl;
   double largest_speed;                   ///< m/s, piston or initial
+  /// Of the piston, towards the specimen; and the time at which it reaches the last strain, s.
+  WallMotion piston;
+  double end_time;
   /// Particles per cell layer along each axis, all bodies.
   std::array<std::vector<double>, 2> layer_weights;
   struct LoadCellBox { IndexBox<2> locations; double density_ratio; };

@@ -24,6 +24,9 @@ struct HistoryLine {
   double energy_error = 0;    ///< what is too much in the energy balance / external work
   double time_step = 0;       ///< s
   GlobalIndex behind_piston = 0, outside_walls = 0;   ///< particles
+
+  /// The applied stress: mean of both ends, in which a wave on its way counts once.
+  double stress() const { return 0.5 * (piston_stress + edge_stress); }
 };
 
 class History {

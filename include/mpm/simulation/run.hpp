@@ -16,9 +16,8 @@ namespace mpm {
 std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
                       const Layout& layout, int ranks);
 
-/// First time step, s, and the number of steps to the end at that length.
+/// s, from the wave speed and the largest speed at the start.
 double first_time_step(const Layout& layout);
-double end_time(const scene::Scene& scene, const micrograph::SpecimenModel& specimen);
 
 /// Runs the scene; writes history.csv, summary.json, the effective scene, snapshots and the picture
 /// of the specimen into `folder`. Collective. Throws on every rank or on none.

@@ -1,14 +1,13 @@
-#include "synthetic_curve.hpp"
-
-#include <gmock/gmock.h>
-#include <sys/wait.h>
-
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include "synthetic_curve.hpp"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
 
 namespace mpm::analysis {
 namespace {
@@ -49,7 +48,7 @@ std::string wood_history(const std::string& header, double strain_unit, double s
 
 TEST(MpmCurve, PrintsTheTableOfARunAndWritesItAsJson)
 {
-  const std::string file = wood_history("strain [1],stress_piston [Pa]", 1, 1);
+  const std::string file = wood_history("strain [1],stress [Pa]", 1, 1);
   const Outcome outcome = run(file + " --json " + scratch("wood.json"));
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.text, HasSubstr("onset of buckling       54.4"));
@@ -70,14 +69,14 @@ TEST(MpmCurve, ConvertsTheUnitsOfALaboratoryTable)
 
 TEST(MpmCurve, BadInputIsStatusTwoWithOneClearLine)
 {
-  const std::string file = wood_history("strain [1],stress [Pa]", 1, 1);
+  const std::string file = wood_history("strain [1],force [Pa]", 1, 1);
   const Outcome column = run(file);
   EXPECT_EQ(column.status, 2);
-  EXPECT_THAT(column.text, HasSubstr("no column 'stress_piston' (there are: strain, stress)"));
+  EXPECT_THAT(column.text, HasSubstr("no column 'stress' (there are: strain, force)"));
   const Outcome missing = run(scratch("not there.csv").append("'").insert(0, "'"));
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.text, HasSubstr("cannot be read"));
-  const Outcome unit = run(file + " --stress-column stress --discard '3 kg'");
+  const Outcome unit = run(file + " --stress-column force --discard '3 kg'");
   EXPECT_EQ(unit.status, 2);
   EXPECT_THAT(unit.text, HasSubstr("--discard"));
   EXPECT_EQ(run("--no-such-option").status, 2);

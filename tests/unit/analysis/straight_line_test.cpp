@@ -1,9 +1,10 @@
-#include <gmock/gmock.h>
-
-#include <algorithm>
 #include <mpm/analysis/sampled_curve.hpp>
 #include <mpm/analysis/straight_line.hpp>
+
+#include <algorithm>
 #include <vector>
+
+#include <gmock/gmock.h>
 
 namespace mpm::analysis {
 namespace {

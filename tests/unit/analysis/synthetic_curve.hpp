@@ -54,8 +54,8 @@ inline Curve noisy(Curve curve, double share)
   std::normal_distribution<double> noise(0, share * buckling_stress);
   for (std::size_t i = 0; i < curve.strain.size(); ++i)
     curve.stress[i] +=
-        noise(generator) + share * buckling_stress *
-                               std::sin(2 * std::numbers::pi * curve.strain[i] / 0.004 + 0.5);
+        noise(generator) +
+        share * buckling_stress * std::sin(2 * std::numbers::pi * curve.strain[i] / 0.004 + 0.5);
   return curve;
 }
 

@@ -1,13 +1,14 @@
-#include <gmock/gmock.h>
-#include <sys/resource.h>
+#include <mpm/core/error.hpp>
+#include <mpm/output/history.hpp>
 
 #include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <mpm/core/error.hpp>
-#include <mpm/output/history.hpp>
 #include <sstream>
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
 
 namespace mpm::output {
 namespace {
@@ -104,7 +105,9 @@ TEST(History, UnknownColumnIsAnsweredWithTheKnownOnes)
 TEST(History, DirectoryThatIsAFileIsAFileError)
 {
   const auto file = file_with("a_file", "x");
-  EXPECT_THAT(message_of<FileError>([&] { HistoryFile(file / "h.csv", {{"time", "s"}}); }),
+  EXPECT_THAT(message_of<FileError>([&] {
+                HistoryFile(file / "h.csv", {{"time", "s"}});
+              }),
               HasSubstr("Not a directory"));
 }
 
@@ -122,8 +125,9 @@ TEST(History, FullDiskIsAnErrorAndLeavesWholeLines)
   rlimit small = old;
   small.rlim_cur = before.size() + 3;  // room for a part of the next line
   setrlimit(RLIMIT_FSIZE, &small);
-  const std::string message =
-      message_of<FileError>([&] { history.append(std::vector{3.14159, 2.71828}); });
+  const std::string message = message_of<FileError>([&] {
+    history.append(std::vector{3.14159, 2.71828});
+  });
   setrlimit(RLIMIT_FSIZE, &old);
   EXPECT_THAT(message, HasSubstr("full.csv: cannot write a line"));
   EXPECT_EQ(text_of(scratch("full.csv")), before);

@@ -1,12 +1,13 @@
-#include <gmock/gmock.h>
+#include <mpm/core/error.hpp>
+#include <mpm/output/replace_file.hpp>
+#include <mpm/output/summary.hpp>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <mpm/core/error.hpp>
-#include <mpm/output/replace_file.hpp>
-#include <mpm/output/summary.hpp>
+
+#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 namespace mpm::output {
@@ -29,8 +30,8 @@ TEST(Summary, KeepsOrderTypesAndNesting)
   const auto json = nlohmann::ordered_json::parse(summary.text());
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, ::testing::ElementsAre("name", "particles", "finished", "compression",
-                                           "shares"));
+  EXPECT_THAT(keys,
+              ::testing::ElementsAre("name", "particles", "finished", "compression", "shares"));
   EXPECT_EQ(json["name"], "radial");
   EXPECT_TRUE(json["particles"].is_number_integer());
   EXPECT_EQ(json["particles"], 35352);

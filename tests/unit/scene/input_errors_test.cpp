@@ -36,13 +36,13 @@ TEST_F(InputErrors, KeysGivenTwice)
 TEST_F(InputErrors, MissingKeys)
 {
   EXPECT_THAT(problems("title: nothing\n"),
-              ElementsAre("a.yaml:1:1: specimen is missing (what is crushed). Add it: a map: "
-                          "[specimen](#specimen).",
+              ElementsAre("a.yaml:1:1: specimen is missing (what is crushed). Add it as a map "
+                          "of keys.",
                           "a.yaml:1:1: loading is missing (what moves the specimen). Add loading: "
                           "{piston: right, speed: 10 m/s}, or free_motion: {end_time: 1 ms}."));
   EXPECT_THAT(problems("specimen: {micrograph: wood.png}\nloading:\n  piston: left\n"),
               ElementsAre("a.yaml:2:1: loading.speed is missing (of the piston). Add it: a "
-                          "velocity, e.g. `10 m/s`; above 0."));
+                          "velocity, e.g. 10 m/s; above 0."));
 }
 
 TEST_F(InputErrors, Units)
@@ -70,7 +70,7 @@ TEST_F(InputErrors, Ranges)
               ElementsAre("a.yaml:7:11: loading.strain is 120 % (must be below 0.99).",
                           "a.yaml:8:14: loading.ramp_time is -1 us (must be at least 0).",
                           "a.yaml:9:16: grid.cells[0] is 1 (must be at least 2).",
-                          "a.yaml:9:45: grid.particles_per_cell is 9 (must be at most 8)."));
+                          "a.yaml:9:44: grid.particles_per_cell is 9 (must be at most 8)."));
 }
 
 TEST_F(InputErrors, PoissonRatioOfOneHalf)
@@ -137,6 +137,13 @@ TEST_F(InputErrors, AListEntryIsNamedByItsPosition)
               ElementsAre("a.yaml:8:27: materials[0].density is 0 kg/m^3 (must be above 0).",
                           "a.yaml:9:47: materials[1].velocity[1] is 2 (a velocity needs a unit). "
                           "Write e.g. 10 m/s."));
+}
+
+TEST_F(InputErrors, AValueOverSeveralLinesIsShownOnOne)
+{
+  EXPECT_THAT(problems(smallest + "steps: |\n  many\n  more " + std::string(80, 'x') + "\n"),
+              ElementsAre("a.yaml:7:8: steps is 'many more " + std::string(50, 'x') +
+                          "...' (must be a number). Write e.g. 10."));
 }
 
 TEST_F(InputErrors, ASoundSceneHasNone)
