@@ -32,10 +32,10 @@ void read_and_run(const scene::CommandLine& command_line)
     specimen = micrograph::build_specimen(scene);
     layout = make_layout(scene, specimen);
   });
-  print_once(plan_text(scene, specimen, layout, ranks_of(MPI_COMM_WORLD)));
+  const Decomposition<2> decomposition = make_decomposition(MPI_COMM_WORLD, scene, layout);
+  print_once(plan_text(scene, specimen, layout, decomposition));
   if (command_line.check) return;
-  run_scene(MPI_COMM_WORLD, scene, specimen, layout,
-            scene::results_folder(command_line, scene));
+  run_scene(scene, specimen, layout, decomposition, scene::results_folder(command_line, scene));
 }
 
 int report(ExitStatus status, const char* what)
@@ -61,6 +61,11 @@ int run(const std::variant<scene::CommandLine, scene::Answer>& asked)
     return report(ExitStatus::numerical_failure, error.what());
   } catch (const FileError& error) {
     return report(ExitStatus::file_failure, error.what());
+  } catch (const std::exception& error) {
+    // Not foreseen, and perhaps on this rank only: the others must not wait for it.
+    fmt::print(stderr, "rank {}: {}\n", rank_of(MPI_COMM_WORLD), error.what());
+    MPI_Abort(MPI_COMM_WORLD, 1);
+    return 1;
   }
 }
 

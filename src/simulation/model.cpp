@@ -91,6 +91,38 @@ UpdateOrderKind update_order_of(const scene::Scene& scene)
   throw InputError("unknown update order");
 }
 
+std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int particles_per_cell)
+{
+  const auto shape = [&] {
+    switch (numerics.shape_function) {
+      case scene::ShapeFunction::linear: return ShapeKind::linear;
+      case scene::ShapeFunction::gimp: return ShapeKind::gimp;
+      case scene::ShapeFunction::quadratic: return ShapeKind::quadratic;
+    }
+    throw InputError("unknown shape function");
+  };
+  const auto scheme = [&] {
+    switch (numerics.scheme) {
+      case scene::TransferScheme::flip: return SchemeKind::flip;
+      case scene::TransferScheme::pic: return SchemeKind::pic;
+      case scene::TransferScheme::apic: return SchemeKind::apic;
+      case scene::TransferScheme::tpic: return SchemeKind::tpic;
+    }
+    throw InputError("unknown transfer scheme");
+  };
+  return make_transfer<2>(shape(), scheme(), particles_per_cell);
+}
+
+Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene, const Layout& layout)
+{
+  std::optional<int> keep_whole;
+  if (const auto* loading = std::get_if<scene::Loading>(&scene.motion))
+    keep_whole = axis_of(loading->piston);
+  return {comm, layout.geometry,
+          IndexVec<2>(scene.numerics.ranks[0], scene.numerics.ranks[1]), layout.layer_weights,
+          keep_whole};
+}
+
 Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
 {
   Layout layout;
@@ -298,9 +330,7 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
                  const Decomposition<2>& decomposition)
 {
   Model model;
-  model.transfer = make_transfer<2>(ShapeKind(int(scene.numerics.shape_function)),
-                                    SchemeKind(int(scene.numerics.scheme)),
-                                    specimen.particles_per_cell);
+  model.transfer = make_transfer(scene.numerics, specimen.particles_per_cell);
   const Lattice& lattice = specimen.lattice;
   const int per_cell = specimen.particles_per_cell;
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {

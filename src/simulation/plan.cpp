@@ -73,8 +73,9 @@ double first_time_step(const Layout& layout)
 }
 
 std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
-                      const Layout& layout, int ranks)
+                      const Layout& layout, const Decomposition<2>& decomposition)
 {
+  const int ranks = decomposition.ranks();
   double particles = 0;
   for (const double layer : layout.layer_weights[0]) particles += layer;
   if (layout.load_cell) particles += double(layout.load_cell->locations.size());
@@ -82,9 +83,7 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
   double steps = std::ceil(layout.end_time / dt);
   if (scene.steps) steps = std::min(steps, double(*scene.steps));
 
-  auto transfer = make_transfer<2>(ShapeKind(int(scene.numerics.shape_function)),
-                                   SchemeKind(int(scene.numerics.scheme)),
-                                   specimen.particles_per_cell);
+  const auto transfer = make_transfer(scene.numerics, specimen.particles_per_cell);
   int particle_columns = 1;   // id
   for (const Column& c :
        transfer->motion_columns(scene.numerics.update_order == scene::UpdateOrder::musl))
@@ -131,6 +130,8 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
   line("left out", absent.empty() ? "nothing" : absent);
   line("time step", fmt::format("{:.4g} s (CFL {:.3g})", dt, layout.cfl));
   line("steps", fmt::format("{:.0f} to t = {:.4g} s", steps, steps * dt));
+  line("ranks", fmt::format("{} x {}", decomposition.ranks_per_axis()[0],
+                            decomposition.ranks_per_axis()[1]));
   line("memory", fmt::format("{:.0f} B per particle, {:.0f} B per node, {} in all",
                              bytes_per_particle, bytes_per_node,
                              memory(bytes_per_particle * particles + bytes_per_node * nodes)));

@@ -108,8 +108,9 @@ const HistoryLine& History::record(const Stepper<2>& stepper, double dt)
     // A wall at the upper end pushes towards lower coordinates.
     const double towards = apparatus_->piston->placement().upper ? -1 : 1;
     const double per_area = 1 / (apparatus_->area * std::max(line.time - last_time_, 1e-300));
-    line.piston_stress = towards * reactions[0] * per_area;
-    line.edge_stress = -towards * reactions[1] * per_area;
+    // + 0.0: no minus before a zero.
+    line.piston_stress = towards * reactions[0] * per_area + 0.0;
+    line.edge_stress = -towards * reactions[1] * per_area + 0.0;
     if (reactions[4] > 0) line.load_cell_stress = -reactions[3] / reactions[4];
     count_outside(stepper, line);
   }

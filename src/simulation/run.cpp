@@ -50,22 +50,21 @@ std::vector<double> snapshot_moments(const scene::Scene& scene,
 
 class Run {
  public:
-  Run(MPI_Comm comm, const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
-      const Layout& layout, const std::filesystem::path& folder)
-      : comm_(comm),
+  Run(const scene::Scene& scene, const micrograph::SpecimenModel& specimen, const Layout& layout,
+      const Decomposition<2>& decomposition, const std::filesystem::path& folder)
+      : comm_(decomposition.comm()),
         scene_(scene),
         specimen_(specimen),
         layout_(layout),
         folder_(folder),
         start_(std::chrono::steady_clock::now()),
-        decomposition_(make_decomposition()),
-        model_(make_model(scene, specimen, layout, decomposition_)),
+        model_(make_model(scene, specimen, layout, decomposition)),
         conditions_(pointers(model_.conditions)),
-        stepper_(decomposition_, std::move(model_.transfer), std::move(model_.bodies),
+        stepper_(decomposition, std::move(model_.transfer), std::move(model_.bodies),
                  std::move(model_.conditions),
                  {update_order_of(scene), 1e-12 * layout.largest_particle_mass}),
         history_(folder, stepper_, conditions_, model_.apparatus),
-        snapshots_(scene, folder, comm),
+        snapshots_(scene, folder, comm_),
         moments_(snapshot_moments(scene, specimen, layout)),
         end_(layout.end_time)
   {
@@ -105,18 +104,6 @@ class Run {
   }
 
  private:
-  Decomposition<2> make_decomposition() const
-  {
-    std::optional<int> keep_whole;
-    if (const auto* loading = std::get_if<scene::Loading>(&scene_.motion))
-      keep_whole = loading->piston == scene::Side::left || loading->piston == scene::Side::right
-                       ? 0
-                       : 1;
-    return {comm_, layout_.geometry,
-            IndexVec<2>(scene_.numerics.ranks[0], scene_.numerics.ranks[1]),
-            layout_.layer_weights, keep_whole};
-  }
-
   bool finished() const
   {
     return stepper_.time() >= end_ * (1 - 1e-12) ||
@@ -263,7 +250,6 @@ class Run {
   const Layout& layout_;
   std::filesystem::path folder_;
   std::chrono::steady_clock::time_point start_;
-  Decomposition<2> decomposition_;
   Model model_;
   std::vector<BoundaryCondition<2>*> conditions_;
   Stepper<2> stepper_;
@@ -279,10 +265,11 @@ class Run {
 
 }  // namespace
 
-void run_scene(MPI_Comm comm, const scene::Scene& scene,
-               const micrograph::SpecimenModel& specimen, const Layout& layout,
+void run_scene(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+               const Layout& layout, const Decomposition<2>& decomposition,
                const std::filesystem::path& folder)
 {
+  const MPI_Comm comm = decomposition.comm();
   agree(comm, [&] {
     if (rank_of(comm) != 0) return;
     std::error_code failure;
@@ -296,7 +283,7 @@ void run_scene(MPI_Comm comm, const scene::Scene& scene,
       throw FileError(fmt::format("{}: cannot write", (folder / "scene.yaml").string()));
     micrograph::write_preview(specimen, folder / "specimen.png");
   });
-  Run(comm, scene, specimen, layout, folder).run();
+  Run(scene, specimen, layout, decomposition, folder).run();
 }
 
 }  // namespace mpm

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <thread>
 
@@ -27,10 +28,16 @@ IndexVec<Dim> two_rows()
   return wish;
 }
 
-/// A partial sum with a full mantissa: sums in another order would differ in the last bits.
+/// A partial sum with a full mantissa: sums in another order would differ in the last bits. Made of
+/// integers, so that no fused multiply-add can give it another value at another place.
 double partial_value(int rank, GlobalIndex node, int slot)
 {
-  return std::sin(1.0 + 7.3 * rank + 0.37 * double(node) + 11.9 * slot) * std::exp(0.9 * slot);
+  std::uint64_t bits = std::uint64_t(node) * 64 + std::uint64_t(slot) * 8 + std::uint64_t(rank);
+  for (int round = 0; round < 3; ++round) {
+    bits = (bits + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+    bits ^= bits >> 29;
+  }
+  return std::ldexp(double(bits >> 11), int(bits % 7) - 50);
 }
 
 /// The arrays that sums go to, with every slot filled: what a sum does not concern must stay.

@@ -18,7 +18,7 @@ inline constexpr int symmetric_components = Dim * (Dim + 1) / 2;
 
 /// State blocks, one behind the other, as ColumnGroup lays them out. One virtual call serves many
 /// particles. Stresses are Kirchhoff stresses tau = J sigma, so that with V0 the reference volume
-/// the internal force on a node is - sum V0 tau g (NUMERICAL BASIS: docs/theory.md).
+/// the internal force on a node is - sum V0 tau g (docs/theory.md).
 template <int Dim>
 class Law {
  public:

@@ -64,5 +64,9 @@ std::unique_ptr<Law<2>> make_law(const scene::Material& material, scene::Plane p
 
 double default_cfl(const scene::Numerics& numerics);
 UpdateOrderKind update_order_of(const scene::Scene& scene);
+std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int particles_per_cell);
+
+/// Cuts by particles, along the piston's travel only where there is no other way. Collective.
+Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene, const Layout& layout);
 
 }  // namespace mpm

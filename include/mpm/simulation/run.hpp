@@ -5,8 +5,6 @@
 #include <mpm/scene/scene.hpp>
 #include <mpm/simulation/model.hpp>
 
-#include <mpi.h>
-
 #include <filesystem>
 #include <string>
 
@@ -14,15 +12,15 @@ namespace mpm {
 
 /// What will run, what is left out, and what it will take: the text of --check.
 std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
-                      const Layout& layout, int ranks);
+                      const Layout& layout, const Decomposition<2>& decomposition);
 
 /// s, from the wave speed and the largest speed at the start.
 double first_time_step(const Layout& layout);
 
 /// Runs the scene; writes history.csv, summary.json, the effective scene, snapshots and the picture
 /// of the specimen into `folder`. Collective. Throws on every rank or on none.
-void run_scene(MPI_Comm comm, const scene::Scene& scene,
-               const micrograph::SpecimenModel& specimen, const Layout& layout,
+void run_scene(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+               const Layout& layout, const Decomposition<2>& decomposition,
                const std::filesystem::path& folder);
 
 }  // namespace mpm

@@ -1,0 +1,61 @@
+"""mpm_par as a user starts it, and what it leaves behind."""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import unittest
+
+SCENES = pathlib.Path(__file__).parent / "scenes"
+SCRATCH = pathlib.Path(os.environ["MPM_SCRATCH"])
+
+
+def mpm_par(*arguments, ranks=1, folder=None):
+    """Runs to the end; `folder` is where it is started."""
+    command = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks),
+               os.environ["MPM_PAR"], *map(str, arguments)]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240)
+
+
+def scene(name):
+    return SCENES / f"{name}.yaml"
+
+
+class History:
+    """history.csv by column name; units are left away."""
+
+    def __init__(self, folder):
+        with open(pathlib.Path(folder) / "history.csv", newline="") as file:
+            lines = list(csv.reader(file))
+        self.names = [cell.split(" [")[0] for cell in lines[0]]
+        self.rows = [[float(cell) for cell in line] for line in lines[1:]]
+
+    def __getitem__(self, name):
+        column = self.names.index(name)
+        return [row[column] for row in self.rows]
+
+    def __len__(self):
+        return len(self.rows)
+
+
+def summary(folder):
+    with open(pathlib.Path(folder) / "summary.json") as file:
+        return json.load(file)
+
+
+class ProgramTest(unittest.TestCase):
+    """Each test has a folder of its own, empty when it starts."""
+
+    def setUp(self):
+        self.folder = SCRATCH / self.id().split(".", 1)[1]
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+
+    def results(self, scene_name, *settings, ranks=1, label="results"):
+        """Runs a scene that must end well; returns its folder of results."""
+        folder = self.folder / label
+        options = [word for setting in settings for word in ("--set", setting)]
+        run = mpm_par(scene(scene_name), "--output", folder, *options, ranks=ranks)
+        self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+        return folder
