@@ -16,6 +16,10 @@ cd "$(dirname "$0")/.."
 
 name=loblolly_radial
 results=results/$name
+draw() {
+  xvfb-run -a pvbatch --force-offscreen-rendering jobscripts/paraview_frames.py \
+    "$results/$name.xdmf"
+}
 step() { printf '\n== %s\n' "$1"; }
 
 step "Build"
@@ -28,8 +32,8 @@ mpirun -n 2 build/mpm_par "inputs/wood/$name.yaml"
 step "Pictures"
 pictures=
 if command -v pvbatch >/dev/null && command -v xvfb-run >/dev/null; then
-  if xvfb-run -a pvbatch --force-offscreen-rendering jobscripts/paraview_frames.py \
-    "$results/$name.xdmf"; then
+  # xvfb-run sometimes takes a display that is just being closed: a second try then helps.
+  if draw || { sleep 2; draw; }; then
     pictures=$(find "$results" -name '*.png' ! -name curve.png | sort)
   else
     echo "quickstart.sh: ParaView could not draw; the run itself is complete." >&2

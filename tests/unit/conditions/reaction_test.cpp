@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "moving_nodes.hpp"
 
 namespace mpm {

@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <numeric>
+
+#include "expect_equal.hpp"
+
+namespace mpm {
+namespace {
+
+class ParticleToGrid : public TransferTest {};
+INSTANTIATE_TEST_SUITE_P(All, ParticleToGrid,
+                         testing::Combine(testing::ValuesIn(all_shapes),
+                                          testing::ValuesIn(all_schemes)),
+                         case_name);
+
+template <int Dim>
+void compare_with_the_double_loop(TransferCase c)
+{
+  Cloud<Dim> cloud(c);
+  cloud.transfer->prime(cloud.body, cloud.grid, true);
+  cloud.naive.to_grid(cloud.particles, cloud.nodes);
+  expect_nodes_equal(cloud);
+}
+
+TEST_P(ParticleToGrid, EqualsTheDoubleLoopOverParticlesAndNodes)
+{
+  compare_with_the_double_loop<2>(parameters());
+  compare_with_the_double_loop<3>(parameters());
+}
+
+template <int Dim>
+void expect_conservation(TransferCase c)
+{
+  Cloud<Dim> cloud(c);
+  cloud.transfer->prime(cloud.body, cloud.grid, true);
+  double mass = 0;
+  Vec<Dim> momentum = Vec<Dim>::Zero(), force = Vec<Dim>::Zero();
+  for (LocalIndex i = 0; i < cloud.grid.size(); ++i) {
+    mass += cloud.grid.mass[i];
+    momentum += momentum_of(cloud.grid, i);
+    force += force_of(cloud.grid, i);
+  }
+  for (const NaiveParticle<Dim>& p : cloud.particles) {
+    mass -= p.mass;
+    momentum -= p.mass * p.v;   // the affine parts have no momentum: sum w (x_i - x_p) = 0
+  }
+  EXPECT_NEAR(mass, 0, 100 * rounding);
+  EXPECT_LT(momentum.norm(), 100 * rounding);
+  EXPECT_LT(force.norm(), 1000 * rounding);   // of terms of size 10
+}
+
+TEST_P(ParticleToGrid, ConservesMassAndMomentumAndItsInternalForcesSumToZero)
+{
+  expect_conservation<2>(parameters());
+  expect_conservation<3>(parameters());
+}
+
+template <int Dim>
+void expect_the_same_in_any_order(TransferCase c)
+{
+  Cloud<Dim> cloud(c);
+  std::vector<LocalIndex> first, order(cloud.count);
+  cloud.transfer->first_nodes(cloud.body.particles, cloud.grid, first);
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](LocalIndex p) { return first[p]; });
+  ASSERT_FALSE(std::ranges::is_sorted(first));
+  cloud.body.particles.permute(order);
+  cloud.body.particles.seal();
+  cloud.transfer->first_nodes(cloud.body.particles, cloud.grid, first);
+  ASSERT_TRUE(std::ranges::is_sorted(first));
+  cloud.transfer->prime(cloud.body, cloud.grid, true);
+  cloud.naive.to_grid(cloud.particles, cloud.nodes);   // still in the old order
+  expect_nodes_equal(cloud);
+}
+
+TEST_P(ParticleToGrid, GivesTheSameSumsForSortedParticles)
+{
+  expect_the_same_in_any_order<2>(parameters());
+  expect_the_same_in_any_order<3>(parameters());
+}
+
+template <int Dim>
+void expect_stencils_to_cover_all_weights(TransferCase c)
+{
+  Cloud<Dim> cloud(c);
+  std::vector<LocalIndex> first;
+  cloud.transfer->first_nodes(cloud.body.particles, cloud.grid, first);
+  ASSERT_EQ(int(first.size()), cloud.count);
+  for (int p = 0; p < cloud.count; ++p) {
+    double covered = 0;
+    for (LocalIndex node = 0; node < cloud.grid.size(); ++node) {
+      bool inside = true;
+      for (int d = 0; d < Dim; ++d) {
+        const LocalIndex count = cloud.grid.local().count()[d];
+        const LocalIndex k =
+            node / cloud.grid.stride(d) % count - first[p] / cloud.grid.stride(d) % count;
+        inside = inside && k >= 0 && k < cloud.transfer->support();
+      }
+      if (inside) covered += cloud.naive.weight(cloud.particles[p].x, cloud.nodes[node]);
+    }
+    EXPECT_NEAR(covered, 1, rounding) << "particle " << p;
+  }
+}
+
+TEST_P(ParticleToGrid, StencilsFromTheFirstNodeCoverAllWeights)
+{
+  expect_stencils_to_cover_all_weights<2>(parameters());
+  expect_stencils_to_cover_all_weights<3>(parameters());
+}
+
+template <int Dim>
+void expect_no_force(TransferCase c)
+{
+  Cloud<Dim> cloud(c);
+  cloud.transfer->prime(cloud.body, cloud.grid, false);
+  for (auto& p : cloud.particles) p.stress.setZero();
+  cloud.naive.to_grid(cloud.particles, cloud.nodes);
+  expect_nodes_equal(cloud);
+}
+
+TEST_P(ParticleToGrid, WithoutForceLeavesTheForcesZero)
+{
+  expect_no_force<2>(parameters());
+  expect_no_force<3>(parameters());
+}
+
+template <int Dim>
+void put_particles_on_grid_lines(ShapeKind shape)
+{
+  Cloud<Dim> cloud({shape, SchemeKind::flip});
+  for (int p = 0; p < cloud.count; ++p)
+    for (int d = 0; d < Dim; ++d)
+      cloud.particles[p].x[d] =
+          cloud.grid.geometry().node_position(d, cloud.local().lower[d] + 3) +
+          0.5 * cloud.grid.geometry().spacing[d] * ((p >> d) % 2);
+  cloud.fill_body();
+  cloud.transfer->prime(cloud.body, cloud.grid, false);
+  for (auto& p : cloud.particles) p.stress.setZero();   // their gradients jump there
+  cloud.naive.to_grid(cloud.particles, cloud.nodes);
+  expect_nodes_equal(cloud);
+}
+
+TEST(ParticleToGridOnGridLines, EqualsTheDoubleLoop)
+{
+  for (const ShapeKind shape : all_shapes) {
+    put_particles_on_grid_lines<2>(shape);
+    put_particles_on_grid_lines<3>(shape);
+  }
+}
+
+}  // namespace
+}  // namespace mpm
