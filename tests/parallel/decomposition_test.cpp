@@ -142,8 +142,8 @@ TEST(Decomposition, WeightedCutsBalanceAOneSidedWeight)
                                        {weights, {}}, {});
   for (int rank = 0; rank < ranks(); ++rank) {
     const IndexBox<2> box = decomposition.owned(rank);
-    const double work = std::accumulate(weights.begin() + box.lower[0],
-                                        weights.begin() + box.upper[0], 0.0);
+    const double work =
+        std::accumulate(weights.begin() + box.lower[0], weights.begin() + box.upper[0], 0.0);
     // Each of the two cuts lies within half of the heaviest layer from where it should.
     EXPECT_NEAR(work, mean, 9.0) << "rank " << rank;
   }

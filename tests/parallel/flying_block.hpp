@@ -34,14 +34,14 @@ inline std::string name_of(const Method& m)
 }
 
 struct Block {
-  IndexVec<2> first_cell, cells;   ///< of the grid
-  Vec<2> velocity;                 ///< m/s
+  IndexVec<2> first_cell, cells;  ///< of the grid
+  Vec<2> velocity;                ///< m/s
 };
 
 /// Everything that all ranks hold of all particles, by id.
 struct Gathered {
   std::vector<double> position, velocity, mass, largest_stress;
-  std::vector<int> holders;   ///< ranks that hold the particle: 1
+  std::vector<int> holders;  ///< ranks that hold the particle: 1
 };
 
 class BlockRun {
@@ -101,17 +101,17 @@ class BlockRun {
     for (const Block& block : blocks) {
       auto law = make_hencky(PlaneAssumption::strain, {youngs_modulus, 0.3}, density, {});
       auto state = law->state_columns();
-      bodies.push_back({"block", int(bodies.size()), density, std::move(law),
-                        ParticleStore(transfer->motion_columns(method.order == UpdateOrderKind::musl),
-                                      std::move(state),
-                                      {"velocity", "mass", "affine_velocity", "grid_velocity",
-                                       "initial_volume"})});
+      bodies.push_back(
+          {"block", int(bodies.size()), density, std::move(law),
+           ParticleStore(
+               transfer->motion_columns(method.order == UpdateOrderKind::musl), std::move(state),
+               {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume"})});
       fill(bodies.back(), block);
     }
     constexpr double volume = 0.25 * cell * cell;
-    return std::make_unique<Stepper<2>>(
-        decomposition_, std::move(transfer), std::move(bodies), std::move(conditions),
-        Stepper<2>::Setup{method.order, 1e-12 * density * volume});
+    return std::make_unique<Stepper<2>>(decomposition_, std::move(transfer), std::move(bodies),
+                                        std::move(conditions),
+                                        Stepper<2>::Setup{method.order, 1e-12 * density * volume});
   }
 
   /// Two by two particles in each cell, 1 m thick.
@@ -124,10 +124,10 @@ class BlockRun {
         if (decomposition_.owner_of_cell(home) != decomposition_.rank()) continue;
         const LocalIndex p = body.particles.add(id);
         ColumnGroup& motion = body.particles.motion();
-        const std::array<double, 5> values{
-            (block.first_cell[0] + 0.5 * i + 0.25) * cell,
-            (block.first_cell[1] + 0.5 * j + 0.25) * cell, block.velocity[0], block.velocity[1],
-            density * 0.25 * cell * cell};
+        const std::array<double, 5> values{(block.first_cell[0] + 0.5 * i + 0.25) * cell,
+                                           (block.first_cell[1] + 0.5 * j + 0.25) * cell,
+                                           block.velocity[0], block.velocity[1],
+                                           density * 0.25 * cell * cell};
         for (int c = 0; c < 5; ++c) motion(c, p) = values[c];
         body.particles.state()(0, p) = 0.25 * cell * cell;
         body.law->initialise(body.particles.state(), p);

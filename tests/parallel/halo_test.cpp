@@ -239,15 +239,19 @@ TEST_P(HaloOfSupport, DiagonalRanksShareTheNodesAroundTheCorner)
   if (ranks() % 2 != 0) GTEST_SKIP() << "no corner without two rows of ranks";
   Sharing<2> sharing({40, 40}, two_rows<2>(), GetParam());
   const IndexVec<2> corner = sharing.decomposition().owned(0).upper;
-  if (ranks() >= 4) EXPECT_EQ(sharing.sharers(corner).size(), 4u);
-  if (ranks() == 2) EXPECT_EQ(sharing.sharers({0, corner[1]}).size(), 2u);
+  if (ranks() >= 4) {
+    EXPECT_EQ(sharing.sharers(corner).size(), 4u);
+  }
+  if (ranks() == 2) {
+    EXPECT_EQ(sharing.sharers({0, corner[1]}).size(), 2u);
+  }
   sharing.expect_serial_sums(0);
 }
 
 TEST(Halo, OneRankSharesNothing)
 {
-  const Decomposition<2> alone(MPI_COMM_SELF, {Vec<2>::Zero(), Vec<2>::Ones(), {12, 9}}, {0, 0},
-                               {}, {});
+  const Decomposition<2> alone(MPI_COMM_SELF, {Vec<2>::Zero(), Vec<2>::Ones(), {12, 9}}, {0, 0}, {},
+                               {});
   const Halo<2> halo(alone, 3);
   EXPECT_TRUE(halo.shared_nodes().empty());
   EXPECT_EQ(halo.traffic().neighbours, 0);

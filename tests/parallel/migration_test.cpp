@@ -77,8 +77,8 @@ class Cloud {
  public:
   Cloud(const IndexVec<Dim>& cells, const IndexVec<Dim>& wish, Path<Dim> path)
       : decomposition_(MPI_COMM_WORLD,
-                       {Vec<Dim>::Zero(), Vec<Dim>::Ones(), (cells.array() + 1).matrix()}, wish,
-                       {}, {}),
+                       {Vec<Dim>::Zero(), Vec<Dim>::Ones(), (cells.array() + 1).matrix()}, wish, {},
+                       {}),
         migration_(decomposition_),
         path_(std::move(path))
   {
@@ -87,9 +87,9 @@ class Cloud {
   void add_body(GlobalIndex first_id, int particles, std::vector<Column> motion,
                 std::vector<Column> state)
   {
-    Body<Dim>& body = bodies_.emplace_back(Body<Dim>{
-        "cloud", int(bodies_.size()), 1.0, nullptr,
-        ParticleStore(std::move(motion), std::move(state), {"mass", "initial_volume"})});
+    Body<Dim>& body = bodies_.emplace_back(
+        Body<Dim>{"cloud", int(bodies_.size()), 1.0, nullptr,
+                  ParticleStore(std::move(motion), std::move(state), {"mass", "initial_volume"})});
     counts_.push_back(particles);
     first_ids_.push_back(first_id);
     for (GlobalIndex id = first_id; id < first_id + particles; ++id) {
@@ -226,8 +226,7 @@ void add_plastic_body(Cloud<2>& cloud, GlobalIndex first_id, int particles)
 void add_elastic_body(Cloud<2>& cloud, GlobalIndex first_id, int particles)
 {
   const auto law = make_hencky(PlaneAssumption::stress, {1e9, 0.3}, 1000, {});
-  cloud.add_body(first_id, particles, MotionColumns<2, Flip>::columns(false),
-                 law->state_columns());
+  cloud.add_body(first_id, particles, MotionColumns<2, Flip>::columns(false), law->state_columns());
 }
 
 TEST(Migration, ParticlesDriftingOverCornersArriveOnceWithAllTheirFields)

@@ -1,10 +1,9 @@
-#include "flying_block.hpp"
-
 #include <mpm/core/error.hpp>
 
 #include <algorithm>
 #include <cmath>
 
+#include "flying_block.hpp"
 #include <gmock/gmock.h>
 
 namespace mpm {
@@ -44,12 +43,12 @@ void expect_same_on_one_rank(Make make, int steps, double share, double speed, d
   }
   const double farthest = std::ranges::max(single.position);
   EXPECT_LT(position, tolerance * farthest);
-  EXPECT_LT(velocity, 1e3 * tolerance * fastest);   // differences of positions over a step
+  EXPECT_LT(velocity, 1e3 * tolerance * fastest);  // differences of positions over a step
 }
 
 class FlyingBlock : public ::testing::TestWithParam<Method> {
  protected:
-  static constexpr double speed = 60;   // m/s
+  static constexpr double speed = 60;  // m/s
   static constexpr int steps = 700;
   static constexpr double share = 0.4;
   static BlockRun make(MPI_Comm comm, const IndexVec<2>& ranks)
@@ -80,8 +79,8 @@ TEST_P(FlyingBlock, KeepsMassMomentumAndShapeAcrossTheRanks)
       momentum[d] += after.mass[p] * after.velocity[d * after.mass.size() + p];
       start[d] += before.mass[p] * before.velocity[d * before.mass.size() + p];
       // Rounding of some hundred additions to the position.
-      const double moved = after.position[d * after.mass.size() + p] -
-                           before.position[d * after.mass.size() + p];
+      const double moved =
+          after.position[d * after.mass.size() + p] - before.position[d * after.mass.size() + p];
       EXPECT_NEAR(moved, (d == 0 ? 1.0 : 0.75) * flown, 1e-10 * flown) << "particle " << p;
     }
   for (std::size_t d = 0; d < 2; ++d) EXPECT_NEAR(momentum[d], start[d], 1e-12 * start[d]);
@@ -94,25 +93,24 @@ TEST_P(FlyingBlock, IsAtTheSamePlaceOnAnyNumberOfRanks)
   expect_same_on_one_rank(make, steps, share, speed, 1e-12);
 }
 
-// Linear functions with an affine field are absent: at a free edge nodes of vanishing mass keep their
-// velocity in the affine field, and no time step is stable.
-INSTANTIATE_TEST_SUITE_P(
-    Methods, FlyingBlock,
-    ::testing::Values(Method{linear, flip, UpdateOrderKind::musl},
-                      Method{gimp, flip, UpdateOrderKind::musl},
-                      Method{quadratic, flip, UpdateOrderKind::musl},
-                      Method{linear, pic, UpdateOrderKind::musl},
-                      Method{gimp, tpic, UpdateOrderKind::musl},
-                      Method{quadratic, tpic, UpdateOrderKind::musl},
-                      Method{quadratic, apic, UpdateOrderKind::usf},
-                      Method{gimp, pic, UpdateOrderKind::usf},
-                      Method{gimp, flip, UpdateOrderKind::usl}),
-    [](const auto& info) { return name_of(info.param); });
+// Linear functions with an affine field are absent: at a free edge nodes of vanishing mass keep
+// their velocity in the affine field, and no time step is stable.
+INSTANTIATE_TEST_SUITE_P(Methods, FlyingBlock,
+                         ::testing::Values(Method{linear, flip, UpdateOrderKind::musl},
+                                           Method{gimp, flip, UpdateOrderKind::musl},
+                                           Method{quadratic, flip, UpdateOrderKind::musl},
+                                           Method{linear, pic, UpdateOrderKind::musl},
+                                           Method{gimp, tpic, UpdateOrderKind::musl},
+                                           Method{quadratic, tpic, UpdateOrderKind::musl},
+                                           Method{quadratic, apic, UpdateOrderKind::usf},
+                                           Method{gimp, pic, UpdateOrderKind::usf},
+                                           Method{gimp, flip, UpdateOrderKind::usl}),
+                         [](const auto& info) { return name_of(info.param); });
 
 /// A piston from the right, three walls, and a second block that flies into the first.
 class PressedBlocks : public ::testing::TestWithParam<Method> {
  protected:
-  static constexpr double speed = 20;   // m/s
+  static constexpr double speed = 20;  // m/s
   static BlockRun make(MPI_Comm comm, const IndexVec<2>& ranks)
   {
     const ReactionBook book =

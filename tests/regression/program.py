@@ -11,11 +11,12 @@ SCENES = pathlib.Path(__file__).parent / "scenes"
 SCRATCH = pathlib.Path(os.environ["MPM_SCRATCH"])
 
 
-def mpm_par(*arguments, ranks=1, folder=None):
+def mpm_par(*arguments, ranks=1, folder=None, timeout=240):
     """Runs to the end; `folder` is where it is started."""
     command = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks),
                os.environ["MPM_PAR"], *map(str, arguments)]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=240)
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True,
+                          timeout=timeout)
 
 
 def scene(name):

@@ -3,9 +3,9 @@
 
 #include <mpm/parallel/session.hpp>
 
-#include <gtest/gtest.h>
-
 #include <cstdio>
+
+#include <gtest/gtest.h>
 
 namespace {
 

@@ -12,8 +12,7 @@ template <int Dim>
 struct MovingNodes {
   NodeGrid<Dim> grid;
 
-  explicit MovingNodes(double mass_cut = 0)
-      : grid(geometry(), box(8), box(6), mass_cut)
+  explicit MovingNodes(double mass_cut = 0) : grid(geometry(), box(8), box(6), mass_cut)
   {
     for (LocalIndex node = 0; node < grid.size(); ++node) grid.touch(node);
     grid.end_activity(2);

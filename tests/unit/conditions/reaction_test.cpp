@@ -1,11 +1,10 @@
 // Reactions against sums over the nodes written out here.
 #include <mpm/conditions/rigid_wall.hpp>
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 
 #include "moving_nodes.hpp"
+#include <gmock/gmock.h>
 
 namespace mpm {
 namespace {
@@ -89,7 +88,7 @@ TEST(Reaction, OfTwoRanksThatShareNodesCountsEachNodeOnce)
 {
   // The same wall over one grid owned by one rank, and over two grids that overlap.
   const GridGeometry<2> geometry{{0, 0}, {1, 1}, {8, 5}};
-  const IndexBox<2> whole{{0, 0}, {8, 5}}, left{{0, 0}, {4, 5}}, right{{4, 0}, {8, 5}};
+  const IndexBox<2> whole{{0, 0}, {8, 5}};
   const auto reaction_of = [&](const IndexBox<2>& local, const IndexBox<2>& owned) {
     NodeGrid<2> grid(geometry, local, owned, 0);
     for (LocalIndex node = 0; node < grid.size(); ++node) grid.touch(node);
@@ -107,7 +106,11 @@ TEST(Reaction, OfTwoRanksThatShareNodesCountsEachNodeOnce)
   const double alone = reaction_of(whole, whole);
   // masses 1 + ... + 8 = 36 times velocities 1 + 2 + 3
   EXPECT_DOUBLE_EQ(alone, 36 * 6);
+  const IndexBox<2> left{{0, 0}, {4, 5}}, right{{4, 0}, {8, 5}};
   EXPECT_DOUBLE_EQ(reaction_of({{0, 0}, {6, 5}}, left) + reaction_of({{2, 0}, {8, 5}}, right),
+                   alone);
+  const IndexBox<2> below{{0, 0}, {8, 2}}, above{{0, 2}, {8, 5}};
+  EXPECT_DOUBLE_EQ(reaction_of({{0, 0}, {8, 4}}, below) + reaction_of({{0, 1}, {8, 5}}, above),
                    alone);
 }
 

@@ -1,8 +1,7 @@
 #include <mpm/conditions/rigid_body.hpp>
 
-#include <gmock/gmock.h>
-
 #include "moving_nodes.hpp"
+#include <gmock/gmock.h>
 
 namespace mpm {
 namespace {
@@ -38,7 +37,7 @@ TEST(RigidBody, TakesItsPlaceAtTheEndOfTheStep)
   MovingNodes<2> nodes;
   const Vec<2> velocity(1, 0.5);
   RigidBody<2> body({{0.5, 0.5}}, {0.5, 0.25}, velocity, ReactionBook::increments);
-  body.constrain_updated(nodes.grid, 0.75, 0.25);   // [1, 2] x [0.75, 1.25] m after 1 s
+  body.constrain_updated(nodes.grid, 0.75, 0.25);  // [1, 2] x [0.75, 1.25] m after 1 s
   body.constrain_gradient(nodes.grid, 0.75, 0.25);
   expect_moving_box<2>(nodes, {2, 3}, {4, 5}, velocity);
 }
@@ -48,7 +47,7 @@ TEST(RigidBody, MovesNodesInSpace)
   MovingNodes<3> nodes;
   const Vec<3> velocity(0, 0, 4);
   RigidBody<3> body({{1, 1, 3}}, {0.6, 0.3, 1.1}, velocity, ReactionBook::velocities);
-  body.constrain_updated(nodes.grid, 0, 0.25);   // z: 4 +- 1.1 m
+  body.constrain_updated(nodes.grid, 0, 0.25);  // z: 4 +- 1.1 m
   body.constrain_gradient(nodes.grid, 0, 0.25);
   expect_moving_box<3>(nodes, {1, 3, 3}, {3, 5, 5}, velocity);
 }
@@ -77,7 +76,7 @@ TEST(RigidBody, BooksEachOwnedNodeOnceAlsoWhereItsBoxesMeet)
   }
   body.constrain_updated(nodes.grid, 0, 0);
   const Reaction<2> reaction = body.take_reaction();
-  EXPECT_NEAR(reaction.impulse[0], impulse, 1e-13);   // three terms of size 10
+  EXPECT_NEAR(reaction.impulse[0], impulse, 1e-13);  // three terms of size 10
   EXPECT_NEAR(reaction.work, -3 * impulse, 1e-12);
 }
 

@@ -1,8 +1,7 @@
 #include <mpm/conditions/rigid_wall.hpp>
 
-#include <gmock/gmock.h>
-
 #include "moving_nodes.hpp"
+#include <gmock/gmock.h>
 
 namespace mpm {
 namespace {
@@ -20,8 +19,7 @@ void expect_wall(MovingNodes<Dim>& nodes, const typename RigidWall<Dim>::Placeme
     for (int d = 0; d < Dim; ++d) {
       const bool normal = d == placement.axis;
       const bool follows = behind && (normal || grip == WallGrip::stick);
-      const double expected =
-          follows ? (normal ? wall_velocity : 0.0) : nodes.velocity(node, d);
+      const double expected = follows ? (normal ? wall_velocity : 0.0) : nodes.velocity(node, d);
       EXPECT_EQ(nodes.updated(node, d), expected) << "node " << node << ", component " << d;
       EXPECT_EQ(nodes.gradient(node, d), expected) << "node " << node << ", component " << d;
     }
@@ -62,7 +60,7 @@ TEST(RigidWall, HoldsNodesOnItsFaceAlsoWhenRoundingPutsThemAHairInFront)
   for (const bool upper : {false, true})
     for (const double hair : {-1e-13, 0.0, 1e-13}) {
       MovingNodes<2> nodes;
-      const RigidWall<2>::Placement placement{1, upper, 1.0 + hair};   // node 4 along y
+      const RigidWall<2>::Placement placement{1, upper, 1.0 + hair};  // node 4 along y
       RigidWall<2> wall(placement, {}, WallGrip::slip, ReactionBook::increments);
       wall.constrain_updated(nodes.grid, 0, 1);
       wall.constrain_gradient(nodes.grid, 0, 1);
@@ -85,7 +83,7 @@ TEST(RigidWall, AMovingOneHoldsTheNodesBehindItsFaceAtTheEndOfTheStep)
 
 TEST(RigidWall, GivesNodesInItsRampTheVelocityAtTheEndOfTheStepAndTheChangeAsIncrement)
 {
-  const WallMotion motion{-2, 1.0};   // V(0.5) = -1, V(0.75) = -2 (3 * 0.5625 - 2 * 0.421875)
+  const WallMotion motion{-2, 1.0};  // V(0.5) = -1, V(0.75) = -2 (3 * 0.5625 - 2 * 0.421875)
   MovingNodes<2> nodes;
   RigidWall<2> wall({0, true, 3.5}, motion, WallGrip::stick, ReactionBook::increments);
   wall.constrain_updated(nodes.grid, 0.5, 0.25);
@@ -98,7 +96,7 @@ TEST(RigidWall, GivesNodesInItsRampTheVelocityAtTheEndOfTheStepAndTheChangeAsInc
 
 TEST(RigidWall, LeavesNodesWithoutMassAlone)
 {
-  MovingNodes<2> nodes(1.5);   // nodes up to number 50 weigh less
+  MovingNodes<2> nodes(1.5);  // nodes up to number 50 weigh less
   RigidWall<2> wall({1, true, 0.0}, {}, WallGrip::stick, ReactionBook::increments);
   wall.constrain_updated(nodes.grid, 0, 1);
   for (LocalIndex node = 0; node < nodes.grid.size(); ++node)

@@ -34,8 +34,9 @@ TEST(WallMotion, DisplacementIsTheIntegralOfTheVelocity)
   double integral = 0;
   for (int k = 0; k < intervals; ++k) {
     const double t = k * step;
-    integral += step / 6 *
-                (motion.velocity(t) + 4 * motion.velocity(t + step / 2) + motion.velocity(t + step));
+    integral +=
+        step / 6 *
+        (motion.velocity(t) + 4 * motion.velocity(t + step / 2) + motion.velocity(t + step));
     EXPECT_NEAR(motion.displacement(t + step), integral, 1e-14) << "t = " << t + step;
   }
 }

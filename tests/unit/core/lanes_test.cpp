@@ -1,11 +1,11 @@
 #include <mpm/core/lanes.hpp>
 
-#include <gmock/gmock.h>
-
 #include <array>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include <gmock/gmock.h>
 
 namespace mpm {
 namespace {
@@ -39,9 +39,9 @@ TEST(LaneLog, AgreesWithTheStandardLogarithmOverAllNormalNumbers)
 {
   std::mt19937 random(1);
   std::uniform_real_distribution exponent(-1022.0, 1023.9);
-  EXPECT_LT(largest_relative_error([&] { return std::exp2(exponent(random)); }, our_log,
-                                   standard_log),
-            4 * epsilon);
+  EXPECT_LT(
+      largest_relative_error([&] { return std::exp2(exponent(random)); }, our_log, standard_log),
+      4 * epsilon);
 }
 
 TEST(LaneLog, KeepsItsRelativeAccuracyNearOneWhereTheLogarithmVanishes)

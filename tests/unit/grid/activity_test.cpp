@@ -1,9 +1,9 @@
 #include <mpm/grid/node_grid.hpp>
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <set>
+
+#include <gmock/gmock.h>
 
 namespace mpm {
 namespace {
@@ -102,9 +102,8 @@ TEST(Activity, KeepsSharedNodesAndTheirNeighboursWhereverParticlesAre)
 template <int Dim>
 void fill_all(NodeGrid<Dim>& grid)
 {
-  for (LaneVector<double>* values :
-       {&grid.mass, &grid.momentum_force, &grid.updated, &grid.remapped_momentum,
-        &grid.gradient_velocity})
+  for (LaneVector<double>* values : {&grid.mass, &grid.momentum_force, &grid.updated,
+                                     &grid.remapped_momentum, &grid.gradient_velocity})
     std::ranges::fill(*values, mark);
 }
 

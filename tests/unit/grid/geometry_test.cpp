@@ -28,7 +28,7 @@ TEST(GridGeometry, FindsTheCellOfAPositionWithItsOwnSpacingPerAxis)
   EXPECT_EQ(grid.smallest_spacing(), 0.25);
   EXPECT_EQ(grid.cell_of({-1.0, 10.0}), IndexVec<2>(0, 0));
   EXPECT_EQ(grid.cell_of({0.74, 10.76}), IndexVec<2>(3, 3));
-  EXPECT_EQ(grid.cell_of({-1.1, 9.9}), IndexVec<2>(-1, -1));   // floor, not towards zero
+  EXPECT_EQ(grid.cell_of({-1.1, 9.9}), IndexVec<2>(-1, -1));  // floor, not towards zero
   EXPECT_EQ(grid.node_position(0, 3), 0.5);
   EXPECT_EQ(grid.node_position(1, 3), 10.75);
 }

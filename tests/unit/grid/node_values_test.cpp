@@ -12,10 +12,7 @@ constexpr double mass_cut = 1e-10;
 /// All nodes active; `heavy` with mass 2 kg and `light` with less than the cut.
 template <int Dim>
 struct TwoNodes {
-  static IndexBox<Dim> box()
-  {
-    return {IndexVec<Dim>::Zero(), IndexVec<Dim>::Constant(4)};
-  }
+  static IndexBox<Dim> box() { return {IndexVec<Dim>::Zero(), IndexVec<Dim>::Constant(4)}; }
   static GridGeometry<Dim> geometry()
   {
     return {Vec<Dim>::Zero(), Vec<Dim>::Ones(), IndexVec<Dim>::Constant(4)};
@@ -65,8 +62,7 @@ TEST(NodeVelocity, IsTheSameFormulaInSpace)
 {
   TwoNodes<3> nodes;
   nodes.grid.update_velocity(0.5);
-  EXPECT_THAT(nodes.updated(nodes.heavy),
-              ElementsAre(3 - 2.5, 3.5 - 2.75, 4 - 3, -2.5, -2.75, -3));
+  EXPECT_THAT(nodes.updated(nodes.heavy), ElementsAre(3 - 2.5, 3.5 - 2.75, 4 - 3, -2.5, -2.75, -3));
 }
 
 TEST(NodeVelocity, OfANodeBelowTheMassCutIsZero)

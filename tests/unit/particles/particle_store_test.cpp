@@ -1,11 +1,11 @@
 #include <mpm/particles/particle_store.hpp>
 
-#include <gmock/gmock.h>
-
 #include <algorithm>
 #include <map>
 #include <numeric>
 #include <random>
+
+#include <gmock/gmock.h>
 
 namespace mpm {
 namespace {
@@ -116,7 +116,7 @@ TEST(ParticleStore, APackedParticleArrivesWithItsIdAndAllItsColumns)
 {
   ParticleStore sender = empty_store(), receiver = empty_store();
   Model model, there;
-  GlobalIndex next_id = (GlobalIndex(1) << 53) + 1;   // more digits than a double has
+  GlobalIndex next_id = (GlobalIndex(1) << 53) + 1;  // more digits than a double has
   add_particles(sender, model, 7, next_id);
   std::vector<double> buffer;
   for (const LocalIndex p : {5, 2}) sender.pack(p, buffer);

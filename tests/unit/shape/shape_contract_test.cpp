@@ -3,11 +3,10 @@
 #include <mpm/shape/linear.hpp>
 #include <mpm/shape/quadratic.hpp>
 
-#include <gmock/gmock.h>
-
 #include <random>
 
 #include "sampled_shape.hpp"
+#include <gmock/gmock.h>
 
 namespace mpm {
 namespace {
@@ -31,7 +30,7 @@ struct QuadraticCase {
 /// Weights are of size 1 and positions up to 20 cells, so that x/h - base carries up to 20 epsilon
 /// = 4e-15; a handful of such errors are added.
 constexpr double rounding = 1e-13;
-constexpr double h = 0.37;   // not 1: a forgotten 1/h shows
+constexpr double h = 0.37;  // not 1: a forgotten 1/h shows
 
 template <class Case>
 class ShapeContract : public testing::Test {
@@ -50,8 +49,7 @@ class ShapeContract : public testing::Test {
   static constexpr int support = decltype(Case::shape())::support;
 };
 
-using Shapes =
-    testing::Types<LinearCase, GimpCase<4>, GimpCase<6>, GimpCase<2>, QuadraticCase>;
+using Shapes = testing::Types<LinearCase, GimpCase<4>, GimpCase<6>, GimpCase<2>, QuadraticCase>;
 TYPED_TEST_SUITE(ShapeContract, Shapes);
 
 TYPED_TEST(ShapeContract, WeightsSumToOneAndGradientsToZero)
@@ -78,7 +76,7 @@ TYPED_TEST(ShapeContract, LinearFieldsAreReproducedWithTheirSlope)
       slope += s.gradient[k] * (s.base + k) * h;
     }
     ASSERT_NEAR(value, x, 20 * h * rounding) << "x = " << x;
-    ASSERT_NEAR(slope, 1, 20 * rounding) << "x = " << x;   // sums terms of size 20
+    ASSERT_NEAR(slope, 1, 20 * rounding) << "x = " << x;  // sums terms of size 20
   }
 }
 
@@ -128,7 +126,8 @@ TYPED_TEST(ShapeContract, NodesEnterAndLeaveTheStencilWithoutAJump)
   // Weights have slopes up to 1/h: across 2e-9 h they change by 2e-9 at most.
   const double shift = TypeParam::shape().base_shift();
   for (int node = 2; node < 18; ++node) {
-    const auto before = this->at((node + shift - 1e-9) * h), after = this->at((node + shift + 1e-9) * h);
+    const auto before = this->at((node + shift - 1e-9) * h),
+               after = this->at((node + shift + 1e-9) * h);
     ASSERT_EQ(before.base, node - 1);
     ASSERT_EQ(after.base, node);
     for (int k = node - 1; k <= node + this->support; ++k)

@@ -3,9 +3,8 @@
 #include <mpm/shape/linear.hpp>
 #include <mpm/shape/quadratic.hpp>
 
-#include <gmock/gmock.h>
-
 #include "sampled_shape.hpp"
+#include <gmock/gmock.h>
 
 namespace mpm {
 namespace {

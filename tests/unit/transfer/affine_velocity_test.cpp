@@ -8,7 +8,7 @@ template <int Dim>
 Matrix<Dim> spin()
 {
   Matrix<Dim> w = Matrix<Dim>::Zero();
-  w(1, 0) = 3;   // 1/s
+  w(1, 0) = 3;  // 1/s
   w(0, 1) = -3;
   return w;
 }
@@ -83,11 +83,11 @@ TEST(AngularMomentum, OfTheParticlesWithTheirAffineFieldsIsThatOfTheNodes)
     double on_nodes = 0, on_particles = 0;
     for (LocalIndex i = 0; i < cloud.grid.size(); ++i)
       on_nodes += cross(cloud.nodes[i].x, momentum_of(cloud.grid, i));
-    const Vec<2> moment = cloud.naive.h.cwiseAbs2() / 4;   // of quadratic splines, everywhere
+    const Vec<2> moment = cloud.naive.h.cwiseAbs2() / 4;  // of quadratic splines, everywhere
     for (const NaiveParticle<2>& p : cloud.particles)
-      on_particles += p.mass * (cross(p.x, p.v) + p.affine(1, 0) * moment[0] -
-                                p.affine(0, 1) * moment[1]);
-    EXPECT_NEAR(on_nodes, on_particles, 500 * rounding);   // 61 terms of size 5
+      on_particles +=
+          p.mass * (cross(p.x, p.v) + p.affine(1, 0) * moment[0] - p.affine(0, 1) * moment[1]);
+    EXPECT_NEAR(on_nodes, on_particles, 500 * rounding);  // 61 terms of size 5
   }
 }
 

@@ -2,11 +2,10 @@
 /// Random particles on a grid with another spacing along each axis, and the same ones for the naive
 /// formulae.
 
-#include <gmock/gmock.h>
-
 #include <random>
 
 #include "naive_transfer.hpp"
+#include <gmock/gmock.h>
 
 namespace mpm {
 
@@ -30,8 +29,7 @@ inline std::string case_name(const testing::TestParamInfo<TransferTest::ParamTyp
 {
   constexpr const char* shapes[] = {"Linear", "Gimp", "Quadratic"};
   constexpr const char* schemes[] = {"Flip", "Pic", "Apic", "Tpic"};
-  return std::string(shapes[int(std::get<0>(info.param))]) +
-         schemes[int(std::get<1>(info.param))];
+  return std::string(shapes[int(std::get<0>(info.param))]) + schemes[int(std::get<1>(info.param))];
 }
 
 /// Positions carry a relative rounding of 10 epsilon after the division by h; some tens of terms
@@ -40,8 +38,8 @@ inline constexpr double rounding = 1e-12;
 
 template <int Dim>
 struct Cloud {
-  static constexpr int particles_per_cell = Dim == 2 ? 2 : 3;   // half sizes 1/4 and 1/6
-  static constexpr int count = 61;                              // fills no lanes evenly
+  static constexpr int particles_per_cell = Dim == 2 ? 2 : 3;  // half sizes 1/4 and 1/6
+  static constexpr int count = 61;                             // fills no lanes evenly
 
   TransferCase parameters;
   std::unique_ptr<Transfer<Dim>> transfer;
@@ -80,7 +78,7 @@ struct Cloud {
     return Eigen::Matrix<double, Rows, Columns>::NullaryExpr([&] { return number(); });
   }
 
-  static Vec<Dim> lower_corner()   ///< of the cell in the middle, which all particles are around
+  static Vec<Dim> lower_corner()  ///< of the cell in the middle, which all particles are around
   {
     return geometry().origin +
            (geometry().spacing.array() * (local().lower.array() + 3).template cast<double>())
@@ -153,7 +151,8 @@ struct Cloud {
  private:
   ParticleStore store(bool musl) const
   {
-    return {transfer->motion_columns(musl), RecordingLaw<Dim>{}.state_columns(),
+    return {transfer->motion_columns(musl),
+            RecordingLaw<Dim>{}.state_columns(),
             {"mass", "initial_volume"}};
   }
   NaiveParticle<Dim> random_particle()

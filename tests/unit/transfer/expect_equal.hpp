@@ -53,8 +53,8 @@ void expect_particles_equal(const Cloud<Dim>& cloud)
     EXPECT_LT((position.col(p) - expected.x).norm(), rounding) << "particle " << p;
     EXPECT_LT((velocity.col(p) - expected.v).norm(), 10 * rounding) << "particle " << p;
     for (int k = 0; k < Dim * Dim; ++k)
-      EXPECT_NEAR(state(RecordingLaw<Dim>::gradient + k, p),
-                  expected.gradient(k % Dim, k / Dim), 100 * rounding)
+      EXPECT_NEAR(state(RecordingLaw<Dim>::gradient + k, p), expected.gradient(k % Dim, k / Dim),
+                  100 * rounding)
           << "particle " << p << ", column " << k;
     if (!cloud.naive.affine()) continue;
     const auto affine = motion_of(cloud, 2 * Dim + 1, Dim * Dim);

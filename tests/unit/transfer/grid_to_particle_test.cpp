@@ -91,7 +91,7 @@ void expect_apic_to_be_tpic()
   Cloud<Dim> apic({ShapeKind::linear, SchemeKind::apic});
   Cloud<Dim> tpic({ShapeKind::linear, SchemeKind::tpic});
   apic.set_random_velocities();
-  tpic.set_random_velocities();   // the same ones
+  tpic.set_random_velocities();  // the same ones
   apic.transfer->usl(apic.body, apic.grid, dt, apic.wide_bounds());
   tpic.transfer->usl(tpic.body, tpic.grid, dt, tpic.wide_bounds());
   const int width = apic.body.particles.motion().width();

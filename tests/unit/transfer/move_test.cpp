@@ -30,11 +30,11 @@ TEST(Move, ReportsTheLargestSpeedComponentOfTheGridVelocities)
 TEST(Move, NamesTheBlocksThatHoldParticlesOutsideTheirHome)
 {
   Cloud<2> cloud = drifting_cloud({0, 0});
-  const int leaver = lane_count + lane_count / 2;   // in block 1
+  const int leaver = lane_count + lane_count / 2;  // in block 1
   cloud.particles[leaver].x = cloud.lower_corner() + Vec<2>(1.2, 0.1);
   cloud.fill_body();
   MoveBounds<2> bounds = cloud.wide_bounds();
-  bounds.home_upper[0] = cloud.lower_corner()[0] + 1.0;   // the others end at 0.7 m
+  bounds.home_upper[0] = cloud.lower_corner()[0] + 1.0;  // the others end at 0.7 m
   const auto outcome = cloud.transfer->usl(cloud.body, cloud.grid, dt, bounds);
   EXPECT_THAT(outcome.blocks_with_leavers, ElementsAre(1));
   EXPECT_FALSE(outcome.lost.has_value());
@@ -63,7 +63,7 @@ TEST(Move, ReportsTheFirstParticleBeyondReachWithPlaceAndVelocity)
   for (auto& p : cloud.particles) p.x = cloud.lower_corner();
   cloud.particles[lost].x += Vec<2>(0.4, 0.1);
   cloud.fill_body();
-  bounds.reach_upper[0] = cloud.lower_corner()[0] + 0.5;   // it goes to 0.6, the others to 0.2
+  bounds.reach_upper[0] = cloud.lower_corner()[0] + 0.5;  // it goes to 0.6, the others to 0.2
   const auto outcome = cloud.transfer->usl(cloud.body, cloud.grid, dt, bounds);
   ASSERT_TRUE(outcome.lost.has_value());
   EXPECT_EQ(outcome.lost->id, 1000 + lost);
@@ -74,9 +74,8 @@ TEST(Move, ReportsTheFirstParticleBeyondReachWithPlaceAndVelocity)
 TEST(Move, ReportsAParticleThatIsNoLongerANumber)
 {
   Cloud<2> cloud = drifting_cloud({0, 0});
-  cloud.set_velocities([&](NaiveNode<2>& n) {
-    n.velocity[1] = std::numeric_limits<double>::quiet_NaN();
-  });
+  cloud.set_velocities(
+      [&](NaiveNode<2>& n) { n.velocity[1] = std::numeric_limits<double>::quiet_NaN(); });
   MoveBounds<2> bounds = cloud.wide_bounds();
   bounds.home_lower = cloud.lower_corner();
   bounds.home_upper = bounds.home_lower + Vec<2>(0.5, 0.3);

@@ -13,7 +13,7 @@ namespace mpm {
 
 struct NaiveShape {
   ShapeKind kind;
-  double l;   ///< half size of a particle domain in cells
+  double l;  ///< half size of a particle domain in cells
 
   /// r = (x_p - x_i) / h
   double weight(double r) const

@@ -41,11 +41,11 @@ void expect_conservation(TransferCase c)
   }
   for (const NaiveParticle<Dim>& p : cloud.particles) {
     mass -= p.mass;
-    momentum -= p.mass * p.v;   // the affine parts have no momentum: sum w (x_i - x_p) = 0
+    momentum -= p.mass * p.v;  // the affine parts have no momentum: sum w (x_i - x_p) = 0
   }
   EXPECT_NEAR(mass, 0, 100 * rounding);
   EXPECT_LT(momentum.norm(), 100 * rounding);
-  EXPECT_LT(force.norm(), 1000 * rounding);   // of terms of size 10
+  EXPECT_LT(force.norm(), 1000 * rounding);  // of terms of size 10
 }
 
 TEST_P(ParticleToGrid, ConservesMassAndMomentumAndItsInternalForcesSumToZero)
@@ -68,7 +68,7 @@ void expect_the_same_in_any_order(TransferCase c)
   cloud.transfer->first_nodes(cloud.body.particles, cloud.grid, first);
   ASSERT_TRUE(std::ranges::is_sorted(first));
   cloud.transfer->prime(cloud.body, cloud.grid, true);
-  cloud.naive.to_grid(cloud.particles, cloud.nodes);   // still in the old order
+  cloud.naive.to_grid(cloud.particles, cloud.nodes);  // still in the old order
   expect_nodes_equal(cloud);
 }
 
@@ -129,12 +129,11 @@ void put_particles_on_grid_lines(ShapeKind shape)
   Cloud<Dim> cloud({shape, SchemeKind::flip});
   for (int p = 0; p < cloud.count; ++p)
     for (int d = 0; d < Dim; ++d)
-      cloud.particles[p].x[d] =
-          cloud.grid.geometry().node_position(d, cloud.local().lower[d] + 3) +
-          0.5 * cloud.grid.geometry().spacing[d] * ((p >> d) % 2);
+      cloud.particles[p].x[d] = cloud.grid.geometry().node_position(d, cloud.local().lower[d] + 3) +
+                                0.5 * cloud.grid.geometry().spacing[d] * ((p >> d) % 2);
   cloud.fill_body();
   cloud.transfer->prime(cloud.body, cloud.grid, false);
-  for (auto& p : cloud.particles) p.stress.setZero();   // their gradients jump there
+  for (auto& p : cloud.particles) p.stress.setZero();  // their gradients jump there
   cloud.naive.to_grid(cloud.particles, cloud.nodes);
   expect_nodes_equal(cloud);
 }

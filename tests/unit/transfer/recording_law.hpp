@@ -11,7 +11,7 @@ class RecordingLaw final : public Law<Dim> {
   static constexpr int components = symmetric_components<Dim>;
   static constexpr int stress = 1, gradient = 1 + components;
   static constexpr int width = gradient + Dim * Dim;
-  static constexpr double lambda = 30, mu = 20;   // Pa
+  static constexpr double lambda = 30, mu = 20;  // Pa
 
   /// Row and column of a stored component.
   static std::pair<int, int> place(int component)
@@ -24,13 +24,13 @@ class RecordingLaw final : public Law<Dim> {
 
   std::vector<Column> state_columns() const override
   {
-    return {{"initial_volume", 1, "m3"}, {"stress", components, "Pa"},
+    return {{"initial_volume", 1, "m3"},
+            {"stress", components, "Pa"},
             {"velocity_gradient", Dim * Dim, "1/s"}};
   }
   void initialise(ColumnGroup&, LocalIndex) const override {}
 
-  void update(double* state, int blocks, const double* l, double dt,
-              double* force) const override
+  void update(double* state, int blocks, const double* l, double dt, double* force) const override
   {
     for (int b = 0; b < blocks; ++b, l += Dim * Dim * lane_count)
       for (int lane = 0; lane < lane_count; ++lane) {
