@@ -1,9 +1,8 @@
 """A uniform block in confined compression against the exact stress.
 
-Why only to 0.5 % strain, and why within 1 %: the piston acts on grid nodes. In the last, partly
-filled cell the material deforms as if the cell were full, so that the stress is low by about the
-strain itself, and by more once the piston has swept most of a cell; this converges with the cell
-size (last test). Stresses in the history are means since the last line: they are compared with
+Why only to 0.5 % strain, and why within 1 %: the piston acts on grid nodes, from the one nearest to
+its face on, which is up to half a cell away. The stress of 20 cells is low by up to 5 % where the
+face is between two nodes; this converges with the cell size (last test). Stresses in the history are means since the last line: they are compared with
 the mean of the exact line over that interval.
 """
 import math
@@ -157,10 +156,10 @@ class ConfinedCompression(ProgramTest):
             late = [k for k in range(1, len(history)) if strain[k - 1] >= 0.07]
             errors.append(sum(abs(stress[k] / elastic(0.5 * (strain[k - 1] + strain[k])) - 1)
                               for k in late) / len(late))
-        # Halved with the cell size if the first order term were alone; 2 % is small enough for 80.
-        self.assertLess(errors[2], 0.08)
-        self.assertLess(errors[2], max(0.75 * errors[1], 0.02), errors)
-        self.assertLess(errors[1], max(0.75 * errors[0], 0.03), errors)
+        # Half a cell in 20 is 2.5 % of the length, in 80 0.6 %: the same again for its neighbour.
+        self.assertLess(errors[0], 0.05, errors)
+        self.assertLess(errors[1], 0.025, errors)
+        self.assertLess(errors[2], 0.015, errors)
 
 
 if __name__ == "__main__":

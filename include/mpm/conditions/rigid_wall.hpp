@@ -19,8 +19,8 @@ enum class WallGrip {
   slip     ///< the normal one only: also a plane of symmetry
 };
 
-/// A plane normal to an axis with a rigid half space behind it: every node on or behind the face
-/// moves with the wall. Fixed edge, lateral wall and piston are this.
+/// A plane normal to an axis with a rigid half space behind it: the node nearest to the face and
+/// every node behind it move with the wall. Fixed edge, lateral wall and piston are this.
 template <int Dim>
 class RigidWall final : public BoundaryCondition<Dim> {
  public:

@@ -14,7 +14,10 @@ void expect_wall(MovingNodes<Dim>& nodes, const typename RigidWall<Dim>::Placeme
   int behind_count = 0;
   for (LocalIndex node = 0; node < nodes.grid.size(); ++node) {
     const double x = nodes.coordinate(node, placement.axis);
-    const bool behind = placement.upper ? x >= face - 1e-9 : x <= face + 1e-9;
+    // Behind the face or at most half a cell in front of it, with some room for rounding.
+    const double in_front =
+        (placement.upper ? face - x : x - face) / nodes.grid.geometry().spacing[placement.axis];
+    const bool behind = in_front <= 0.5 + 1e-10;
     behind_count += behind;
     for (int d = 0; d < Dim; ++d) {
       const bool normal = d == placement.axis;
@@ -33,18 +36,19 @@ class WallEverywhere : public testing::TestWithParam<std::tuple<bool, WallGrip>>
 template <int Dim>
 void try_all_axes(bool upper, WallGrip grip)
 {
-  for (int axis = 0; axis < Dim; ++axis) {
-    MovingNodes<Dim> nodes;
-    const double h = nodes.grid.geometry().spacing[axis];
-    const typename RigidWall<Dim>::Placement placement{axis, upper, 3.3 * h};
-    RigidWall<Dim> wall(placement, {}, grip, ReactionBook::increments);
-    wall.constrain_updated(nodes.grid, 0, 1);
-    wall.constrain_gradient(nodes.grid, 0, 1);
-    expect_wall(nodes, placement, 3.3 * h, 0, grip);
-  }
+  for (int axis = 0; axis < Dim; ++axis)
+    for (const double cells : {3.0, 3.3, 3.7}) {
+      MovingNodes<Dim> nodes;
+      const double face = cells * nodes.grid.geometry().spacing[axis];
+      const typename RigidWall<Dim>::Placement placement{axis, upper, face};
+      RigidWall<Dim> wall(placement, {}, grip, ReactionBook::increments);
+      wall.constrain_updated(nodes.grid, 0, 1);
+      wall.constrain_gradient(nodes.grid, 0, 1);
+      expect_wall(nodes, placement, face, 0, grip);
+    }
 }
 
-TEST_P(WallEverywhere, HoldsTheNodesBehindItAndNoOthers)
+TEST_P(WallEverywhere, HoldsTheNodeNearestToItsFaceAndThoseBehindAndNoOthers)
 {
   const auto [upper, grip] = GetParam();
   try_all_axes<2>(upper, grip);
@@ -55,30 +59,31 @@ INSTANTIATE_TEST_SUITE_P(SidesAndGrips, WallEverywhere,
                          testing::Combine(testing::Bool(),
                                           testing::Values(WallGrip::stick, WallGrip::slip)));
 
-TEST(RigidWall, HoldsNodesOnItsFaceAlsoWhenRoundingPutsThemAHairInFront)
+TEST(RigidWall, MidwayBetweenTwoNodesHoldsTheOneInFrontWhateverTheRounding)
 {
   for (const bool upper : {false, true})
     for (const double hair : {-1e-13, 0.0, 1e-13}) {
       MovingNodes<2> nodes;
-      const RigidWall<2>::Placement placement{1, upper, 1.0 + hair};  // node 4 along y
+      const RigidWall<2>::Placement placement{1, upper, 1.125 + hair};  // between 4 and 5 along y
       RigidWall<2> wall(placement, {}, WallGrip::slip, ReactionBook::increments);
       wall.constrain_updated(nodes.grid, 0, 1);
       wall.constrain_gradient(nodes.grid, 0, 1);
-      expect_wall(nodes, placement, 1.0, 0, WallGrip::slip);
+      expect_wall(nodes, placement, 1.125, 0, WallGrip::slip);
     }
 }
 
-TEST(RigidWall, AMovingOneHoldsTheNodesBehindItsFaceAtTheEndOfTheStep)
+TEST(RigidWall, AMovingOneHoldsTheNodesOfItsPlaceAtTheEndOfTheStep)
 {
-  // From 3.6 m with -2 m/s: at the end of the step from 0.2 to 0.3 s at 3.0 m, that is node 6.
-  const RigidWall<2>::Placement placement{0, true, 3.6};
+  // From 3.8 m with -2 m/s: in the step from 0.2 to 0.3 s it goes from 3.4 m, where node 7 is the
+  // nearest, to 3.2 m, where node 6 is.
+  const RigidWall<2>::Placement placement{0, true, 3.8};
   const WallMotion motion{-2, 0};
   MovingNodes<2> nodes;
   RigidWall<2> wall(placement, motion, WallGrip::stick, ReactionBook::velocities);
   wall.constrain_updated(nodes.grid, 0.2, 0.1);
   wall.constrain_gradient(nodes.grid, 0.2, 0.1);
-  expect_wall(nodes, placement, 3.0, -2, WallGrip::stick);
-  EXPECT_NEAR(wall.position(0.3), 3.0, 1e-15);
+  expect_wall(nodes, placement, 3.2, -2, WallGrip::stick);
+  EXPECT_NEAR(wall.position(0.3), 3.2, 1e-15);
 }
 
 TEST(RigidWall, GivesNodesInItsRampTheVelocityAtTheEndOfTheStepAndTheChangeAsIncrement)

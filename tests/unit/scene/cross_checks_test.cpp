@@ -135,6 +135,18 @@ TEST_F(CrossChecks, StressLastWithLinearShapeFunctions)
   EXPECT_TRUE(problems(smallest + usl + "gimp}\n").empty());
 }
 
+TEST_F(CrossChecks, AffineSchemesWithLinearShapeFunctions)
+{
+  const std::string linear = "numerics: {shape_function: linear, scheme: ";
+  EXPECT_THAT(
+      problems(smallest + linear + "tpic}\n"),
+      ElementsAre("a.yaml:7:44: numerics.scheme is 'tpic' (with linear shape functions no time "
+                  "step is stable at free edges). Use scheme: flip, or shape_function: gimp or "
+                  "quadratic."));
+  EXPECT_EQ(problems(smallest + linear + "apic}\n").size(), 1u);
+  EXPECT_TRUE(problems(smallest + linear + "pic}\n").empty());
+}
+
 TEST_F(CrossChecks, SnapshotsBeyondTheEnd)
 {
   EXPECT_THAT(problems(smallest + "  strain: 0.3\noutput: {snapshots: {strains: [0.1, 0.4]}}\n"),
