@@ -7,10 +7,10 @@
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/run.hpp>
 
+#include <cstdio>
+
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
-#include <cstdio>
 
 namespace {
 

@@ -23,7 +23,7 @@ double WallMotion::time_of(double length) const
 {
   const double time = length / speed + 0.5 * ramp_time;
   if (time >= ramp_time) return time;
-  double lower = 0, upper = ramp_time;   // still in the smooth start: bisection
+  double lower = 0, upper = ramp_time;  // still in the smooth start: bisection
   while (upper - lower > 1e-15 * ramp_time) {
     const double middle = 0.5 * (lower + upper);
     (displacement(middle) / length < 1 ? lower : upper) = middle;
@@ -52,7 +52,8 @@ void RigidWall<Dim>::for_each_node(const NodeGrid<Dim>& grid, double time, Visit
   if (placement_.upper)
     behind.lower[axis] = std::max(behind.lower[axis], LocalIndex(std::ceil(index - 0.5 - 1e-9)));
   else
-    behind.upper[axis] = std::min(behind.upper[axis], LocalIndex(std::floor(index + 0.5 + 1e-9)) + 1);
+    behind.upper[axis] =
+        std::min(behind.upper[axis], LocalIndex(std::floor(index + 0.5 + 1e-9)) + 1);
   if (behind.empty()) return;
   for (const NodeRun<Dim>& run : grid.runs()) {
     bool row = true;

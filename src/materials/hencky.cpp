@@ -10,8 +10,8 @@ namespace {
 
 /// Principal values and directions of a symmetric 2 x 2 tensor with positive eigenvalues.
 struct Spectrum {
-  Lanes first, second;        ///< eigenvalues, first >= second
-  Lanes cosine, sine;         ///< of twice the angle of the first direction
+  Lanes first, second;  ///< eigenvalues, first >= second
+  Lanes cosine, sine;   ///< of twice the angle of the first direction
 
   Spectrum(const Lanes& xx, const Lanes& yy, const Lanes& xy)
   {
@@ -42,7 +42,13 @@ class Hencky final : public Law<2> {
   static constexpr bool plane_strain = Plane == PlaneAssumption::strain;
   // b_e,zz differs from 1 only by plastic flow; in plane stress it follows from tau_zz = 0.
   static constexpr bool carries_zz = plane_strain && Plastic;
-  enum : int { volume = 0, be_xx, be_yy, be_xy, be_zz, };
+  enum : int {
+    volume = 0,
+    be_xx,
+    be_yy,
+    be_xy,
+    be_zz,
+  };
   static constexpr int plastic_strain = carries_zz ? 5 : 4;
   static constexpr int plastic_work = plastic_strain + 1;
   static constexpr int columns = Plastic ? plastic_work + 1 : 4;
@@ -130,8 +136,7 @@ class Hencky final : public Law<2> {
     const Strain e = elastic_strain(s, Spectrum(at(s, be_xx), at(s, be_yy), at(s, be_xy)));
     const Lanes trace = e.first + e.second + e.zz, third = trace / 3.0;
     const Lanes d1 = e.first - third, d2 = e.second - third, d3 = e.zz - third;
-    return at(s, volume) *
-           (0.5 * bulk_ * trace * trace + mu_ * (d1 * d1 + d2 * d2 + d3 * d3));
+    return at(s, volume) * (0.5 * bulk_ * trace * trace + mu_ * (d1 * d1 + d2 * d2 + d3 * d3));
   }
 
   double wave_speed() const override
@@ -141,7 +146,7 @@ class Hencky final : public Law<2> {
 
  private:
   struct Strain {
-    Lanes first, second, zz;   ///< principal logarithmic elastic strains
+    Lanes first, second, zz;  ///< principal logarithmic elastic strains
   };
 
   static Lanes at(const double* s, int column) { return load(s + column * lane_count); }
@@ -190,15 +195,14 @@ class Hencky final : public Law<2> {
   {
     const Lanes third = (e.first + e.second + e.zz) * (1.0 / 3.0);
     const Lanes d1 = e.first - third, d2 = e.second - third, d3 = e.zz - third;
-    const Lanes squared = 1.5 * (d1 * d1 + d2 * d2 + d3 * d3);   // (q / 2 mu)^2
+    const Lanes squared = 1.5 * (d1 * d1 + d2 * d2 + d3 * d3);  // (q / 2 mu)^2
     const Lanes hardening = at(s, plastic_strain);
     const Lanes limit = (yield_.yield_stress + yield_.hardening_modulus * hardening) / (2 * mu_);
     const LaneMask yields = squared > limit * limit;
     if (!stdx::any_of(yields)) return;
     const Lanes q = stdx::sqrt(squared);
     Lanes multiplier = 0.0, scale = 1.0;
-    stdx::where(yields, multiplier) =
-        2 * mu_ * (q - limit) / (3 * mu_ + yield_.hardening_modulus);
+    stdx::where(yields, multiplier) = 2 * mu_ * (q - limit) / (3 * mu_ + yield_.hardening_modulus);
     stdx::where(yields, scale) = 1.0 - 1.5 * multiplier / q;
     e = {third + scale * d1, third + scale * d2, third + scale * d3};
     record_flow(s, multiplier);

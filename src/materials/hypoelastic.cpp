@@ -116,9 +116,9 @@ class Hypoelastic final : public Law<2> {
     if constexpr (Plastic && plane_strain) {
       const Lanes zz = at(s, third), p = (t.xx + t.yy + zz) / 3.0;
       const Lanes a = t.xx - p, b = t.yy - p, c = zz - p;
-      return at(s, volume) * (p * p / (2 * elastic_.bulk_modulus()) +
-                              (a * a + b * b + c * c + 2.0 * t.xy * t.xy) /
-                                  (4 * elastic_.shear_modulus()));
+      return at(s, volume) *
+             (p * p / (2 * elastic_.bulk_modulus()) +
+              (a * a + b * b + c * c + 2.0 * t.xy * t.xy) / (4 * elastic_.shear_modulus()));
     }
     const Eigen::Matrix3d& m = compliance_;
     const Lanes exx = m(0, 0) * t.xx + m(0, 1) * t.yy + m(0, 2) * t.xy;
@@ -189,8 +189,8 @@ class Hypoelastic final : public Law<2> {
       if constexpr (Plastic) flow = return_in_plane_stress(s, t);
       // Elastic part from the stress that was really gained, plastic part -(dep_xx + dep_yy),
       // dep = gamma P sigma.
-      put(at(s, third) + z(0) * (t.xx - old.xx) + z(1) * (t.yy - old.yy) +
-              z(2) * (t.xy - old.xy) - flow.multiplier * (t.xx + t.yy) / 3.0,
+      put(at(s, third) + z(0) * (t.xx - old.xx) + z(1) * (t.yy - old.yy) + z(2) * (t.xy - old.xy) -
+              flow.multiplier * (t.xx + t.yy) / 3.0,
           s, third);
     }
     put(t.xx, s, t_xx);
@@ -253,8 +253,8 @@ std::unique_ptr<Law<2>> make_hypoelastic(PlaneAssumption plane, const PlaneStiff
 {
   const IsotropicConstants none{1, 0};
   if (plane == PlaneAssumption::strain)
-    return std::make_unique<Hypoelastic<PlaneAssumption::strain, false>>(stiffness, none,
-                                                                         YieldConstants{0}, density);
+    return std::make_unique<Hypoelastic<PlaneAssumption::strain, false>>(
+        stiffness, none, YieldConstants{0}, density);
   return std::make_unique<Hypoelastic<PlaneAssumption::stress, false>>(stiffness, none,
                                                                        YieldConstants{0}, density);
 }

@@ -82,12 +82,11 @@ double PlaneStiffness::wave_modulus() const
   for (int k = 0; k < directions; ++k) {
     const double angle = std::numbers::pi * k / directions;
     const double x = std::cos(angle), y = std::sin(angle);
-    Eigen::Matrix<double, 3, 2> b;   // strain of a wave front with normal (x, y)
+    Eigen::Matrix<double, 3, 2> b;  // strain of a wave front with normal (x, y)
     b << x, 0, 0, y, y, x;
     const Eigen::Matrix2d acoustic = b.transpose() * in_plane * b;
-    largest = std::max(largest, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(acoustic)
-                                    .eigenvalues()
-                                    .maxCoeff());
+    largest = std::max(
+        largest, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(acoustic).eigenvalues().maxCoeff());
   }
   return largest;
 }

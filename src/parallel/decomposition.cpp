@@ -2,13 +2,12 @@
 #include <mpm/parallel/decomposition.hpp>
 #include <mpm/parallel/session.hpp>
 
-#include "petsc_check.hpp"
-
-#include <petscdmda.h>
-
 #include <algorithm>
 #include <numeric>
 #include <string>
+
+#include "petsc_check.hpp"
+#include <petscdmda.h>
 
 namespace mpm {
 

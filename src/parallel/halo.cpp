@@ -1,10 +1,9 @@
 #include <mpm/parallel/halo.hpp>
 
-#include "petsc_check.hpp"
-
-#include <petscsf.h>
-
 #include <algorithm>
+
+#include "petsc_check.hpp"
+#include <petscsf.h>
 
 namespace mpm {
 
@@ -33,7 +32,8 @@ class Halo<Dim>::Exchange {
   }
   void run(int values)
   {
-    petsc_check(PetscSFBcastBegin(graph_, types_[values], own.data(), received.data(), MPI_REPLACE));
+    petsc_check(
+        PetscSFBcastBegin(graph_, types_[values], own.data(), received.data(), MPI_REPLACE));
     petsc_check(PetscSFBcastEnd(graph_, types_[values], own.data(), received.data(), MPI_REPLACE));
   }
 

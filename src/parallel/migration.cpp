@@ -78,8 +78,7 @@ typename Migration<Dim>::Outcome Migration<Dim>::exchange(std::span<const Leaver
       MPI_Get_count(&status, MPI_DOUBLE, &count);
       Packet& packet = received[status.MPI_SOURCE];
       packet.resize(count);
-      MPI_Recv(packet.data(), count, MPI_DOUBLE, status.MPI_SOURCE, tag, comm,
-               MPI_STATUS_IGNORE);
+      MPI_Recv(packet.data(), count, MPI_DOUBLE, status.MPI_SOURCE, tag, comm, MPI_STATUS_IGNORE);
     }
     if (!own_sends_arrived) {
       int all_sent = 0;

@@ -1,7 +1,7 @@
 #pragma once
-#include <petscsys.h>
-
 #include <stdexcept>
+
+#include <petscsys.h>
 
 namespace mpm {
 

@@ -1,9 +1,9 @@
 #include <mpm/core/error.hpp>
 #include <mpm/parallel/session.hpp>
 
-#include "petsc_check.hpp"
-
 #include <string>
+
+#include "petsc_check.hpp"
 
 namespace mpm {
 
@@ -97,10 +97,14 @@ void agree(MPI_Comm comm, const std::function<void()>& action)
   text.resize(message[1]);
   MPI_Bcast(text.data(), message[1], MPI_CHAR, failed, comm);
   switch (message[0]) {
-    case input: throw InputError(text);
-    case numerical: throw NumericalError(text);
-    case file: throw FileError(text);
-    default: throw std::runtime_error(text);
+    case input:
+      throw InputError(text);
+    case numerical:
+      throw NumericalError(text);
+    case file:
+      throw FileError(text);
+    default:
+      throw std::runtime_error(text);
   }
 }
 

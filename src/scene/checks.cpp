@@ -58,7 +58,8 @@ void check_run(const Checked& checked)
                  "Add loading: {piston: right, speed: 10 m/s}, or free_motion: {end_time: 1 ms}");
 
   const Numerics& numerics = scene.numerics;
-  if (numerics.shape_function == ShapeFunction::linear && checked.sound("numerics.shape_function")) {
+  if (numerics.shape_function == ShapeFunction::linear &&
+      checked.sound("numerics.shape_function")) {
     // Both take gradients of grid velocities that the force has just changed: where hardly any mass
     // reaches a node, the gradient of a linear function is as large as ever.
     const std::string reason = "with linear shape functions no time step is stable at free edges";

@@ -27,7 +27,8 @@ std::unique_ptr<Law<2>> make_law(const scene::Material& m, scene::Plane scene_pl
                                   ? PlaneStiffness::axis_out_of_plane(plane, fibre)
                                   : PlaneStiffness::axis_in_plane(plane, fibre, m.axis_angle),
                               m.density);
-    case scene::Law::rigid: break;
+    case scene::Law::rigid:
+      break;
   }
   throw InputError("material '" + m.name + "' is rigid and has no stress");
 }

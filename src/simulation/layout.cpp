@@ -1,10 +1,10 @@
 #include <mpm/core/error.hpp>
 #include <mpm/simulation/model.hpp>
 
-#include "placement.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "placement.hpp"
 
 namespace mpm {
 
@@ -116,13 +116,14 @@ Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
       layout.layer_weights[0][before[0] + i / per_cell] += 1;
       layout.layer_weights[1][before[1] + j / per_cell] += 1;
       layout.largest_speed =
-          std::max(layout.largest_speed, fastest(initial_velocity(scene, specimen.lattice,
-                                                                  std::size_t(j) * nx + i)));
+          std::max(layout.largest_speed,
+                   fastest(initial_velocity(scene, specimen.lattice, std::size_t(j) * nx + i)));
     }
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
     const scene::Material& material = scene.materials[k];
     if (material.law == scene::Law::rigid) {
-      if (used[k]) layout.largest_speed = std::max(layout.largest_speed, fastest(material.velocity));
+      if (used[k])
+        layout.largest_speed = std::max(layout.largest_speed, fastest(material.velocity));
       continue;
     }
     if (!used[k]) continue;

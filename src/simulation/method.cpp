@@ -16,9 +16,12 @@ double default_cfl(const scene::Numerics& numerics)
 UpdateOrderKind update_order_of(const scene::Scene& scene)
 {
   switch (scene.numerics.update_order) {
-    case scene::UpdateOrder::musl: return UpdateOrderKind::musl;
-    case scene::UpdateOrder::usf: return UpdateOrderKind::usf;
-    case scene::UpdateOrder::usl: return UpdateOrderKind::usl;
+    case scene::UpdateOrder::musl:
+      return UpdateOrderKind::musl;
+    case scene::UpdateOrder::usf:
+      return UpdateOrderKind::usf;
+    case scene::UpdateOrder::usl:
+      return UpdateOrderKind::usl;
   }
   throw InputError("unknown update order");
 }
@@ -27,18 +30,25 @@ std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int 
 {
   const auto shape = [&] {
     switch (numerics.shape_function) {
-      case scene::ShapeFunction::linear: return ShapeKind::linear;
-      case scene::ShapeFunction::gimp: return ShapeKind::gimp;
-      case scene::ShapeFunction::quadratic: return ShapeKind::quadratic;
+      case scene::ShapeFunction::linear:
+        return ShapeKind::linear;
+      case scene::ShapeFunction::gimp:
+        return ShapeKind::gimp;
+      case scene::ShapeFunction::quadratic:
+        return ShapeKind::quadratic;
     }
     throw InputError("unknown shape function");
   };
   const auto scheme = [&] {
     switch (numerics.scheme) {
-      case scene::TransferScheme::flip: return SchemeKind::flip;
-      case scene::TransferScheme::pic: return SchemeKind::pic;
-      case scene::TransferScheme::apic: return SchemeKind::apic;
-      case scene::TransferScheme::tpic: return SchemeKind::tpic;
+      case scene::TransferScheme::flip:
+        return SchemeKind::flip;
+      case scene::TransferScheme::pic:
+        return SchemeKind::pic;
+      case scene::TransferScheme::apic:
+        return SchemeKind::apic;
+      case scene::TransferScheme::tpic:
+        return SchemeKind::tpic;
     }
     throw InputError("unknown transfer scheme");
   };
@@ -50,9 +60,8 @@ Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene, co
   std::optional<int> keep_whole;
   if (const auto* loading = std::get_if<scene::Loading>(&scene.motion))
     keep_whole = axis_of(loading->piston);
-  return {comm, layout.geometry,
-          IndexVec<2>(scene.numerics.ranks[0], scene.numerics.ranks[1]), layout.layer_weights,
-          keep_whole};
+  return {comm, layout.geometry, IndexVec<2>(scene.numerics.ranks[0], scene.numerics.ranks[1]),
+          layout.layer_weights, keep_whole};
 }
 
 }  // namespace mpm

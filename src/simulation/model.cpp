@@ -3,10 +3,10 @@
 #include <mpm/simulation/model.hpp>
 #include <mpm/transfer/scheme.hpp>
 
-#include "placement.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "placement.hpp"
 
 namespace mpm {
 
@@ -66,9 +66,9 @@ Body<2> empty_body(const scene::Material& material, int index, const scene::Scen
   auto law = make_law(material, scene.numerics.plane);
   auto state = law->state_columns();
   const bool musl = scene.numerics.update_order == scene::UpdateOrder::musl;
-  ParticleStore particles(transfer.motion_columns(musl), std::move(state),
-                          {"velocity", "mass", "affine_velocity", "grid_velocity",
-                           "initial_volume", "plastic_work"});
+  ParticleStore particles(
+      transfer.motion_columns(musl), std::move(state),
+      {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume", "plastic_work"});
   return {material.name, index, material.density, std::move(law), std::move(particles)};
 }
 
@@ -142,8 +142,8 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
       for (int j = 0; j < lattice.ny; ++j)
         for (int i = 0; i < lattice.nx; ++i)
           if (lattice(i, j) == std::int8_t(k))
-            points.push_back({(i + 0.5) * layout.location_size[0],
-                              (j + 0.5) * layout.location_size[1]});
+            points.push_back(
+                {(i + 0.5) * layout.location_size[0], (j + 0.5) * layout.location_size[1]});
       model.conditions.push_back(std::make_unique<RigidBody<2>>(
           std::move(points), Vec<2>(0.5 * layout.location_size[0], 0.5 * layout.location_size[1]),
           Vec<2>(material.velocity[0], material.velocity[1]), book_of(scene.numerics)));

@@ -1,9 +1,9 @@
 #include <mpm/simulation/run.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace mpm {
 
@@ -34,7 +34,8 @@ const char* name_of(scene::UpdateOrder s)
 
 std::string memory(double bytes)
 {
-  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
+                     : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
 std::string duration(double seconds)
@@ -49,9 +50,8 @@ std::vector<std::string> left_out(const scene::Scene& scene)
   std::vector<std::string> list;
   const auto* loading = std::get_if<scene::Loading>(&scene.motion);
   const auto deformable = [](const scene::Material& m) { return m.law != scene::Law::rigid; };
-  if (std::ranges::none_of(scene.materials, [](const scene::Material& m) {
-        return m.law == scene::Law::von_mises;
-      }))
+  if (std::ranges::none_of(scene.materials,
+                           [](const scene::Material& m) { return m.law == scene::Law::von_mises; }))
     list.push_back("plasticity");
   if (loading && !loading->load_cell) list.push_back("load cell");
   if (scene.numerics.update_order != scene::UpdateOrder::musl) list.push_back("re-mapping pass");
@@ -84,7 +84,7 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
   if (scene.steps) steps = std::min(steps, double(*scene.steps));
 
   const auto transfer = make_transfer(scene.numerics, specimen.particles_per_cell);
-  int particle_columns = 1;   // id
+  int particle_columns = 1;  // id
   for (const Column& c :
        transfer->motion_columns(scene.numerics.update_order == scene::UpdateOrder::musl))
     particle_columns += c.components;
@@ -105,9 +105,9 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
     text += fmt::format("  {:<18} {}\n", what, value);
   };
   text += fmt::format("{}\n", scene.title.empty() ? scene.name : scene.title);
-  line("specimen", fmt::format("{:.4g} x {:.4g} mm, relative density {:.4f}",
-                               1e3 * specimen.size[0], 1e3 * specimen.size[1],
-                               specimen.densities.front().value));
+  line("specimen",
+       fmt::format("{:.4g} x {:.4g} mm, relative density {:.4f}", 1e3 * specimen.size[0],
+                   1e3 * specimen.size[1], specimen.densities.front().value));
   for (std::size_t k = 1; k < specimen.densities.size(); ++k)
     line("", fmt::format("{}: {:.4f}, {:.0f} kg/m3", specimen.densities[k].window,
                          specimen.densities[k].value, specimen.densities[k].bulk_density));
@@ -122,9 +122,9 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
                              scene.numerics.plane == scene::Plane::strain ? "strain" : "stress"));
   for (const scene::Material& material : scene.materials)
     if (material.law != scene::Law::rigid)
-      line("material", fmt::format("{}: wave speed {:.0f} m/s, {:.0f} kg/m3", material.name,
-                                   make_law(material, scene.numerics.plane)->wave_speed(),
-                                   material.density));
+      line("material",
+           fmt::format("{}: wave speed {:.0f} m/s, {:.0f} kg/m3", material.name,
+                       make_law(material, scene.numerics.plane)->wave_speed(), material.density));
   std::string absent;
   for (const std::string& what : left_out(scene)) absent += (absent.empty() ? "" : ", ") + what;
   line("left out", absent.empty() ? "nothing" : absent);

@@ -1,10 +1,10 @@
 #include <mpm/simulation/progress.hpp>
 
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace mpm {
@@ -28,16 +28,13 @@ bool output_is_terminal()
 {
   if (!std::getenv("OMPI_COMM_WORLD_RANK") && !std::getenv("PMI_RANK")) return isatty(1) != 0;
   std::error_code none;
-  const auto target = std::filesystem::read_symlink(
-      "/proc/" + std::to_string(getppid()) + "/fd/1", none);
-  return !none && (target.string().starts_with("/dev/pts/") ||
-                   target.string().starts_with("/dev/tty"));
+  const auto target =
+      std::filesystem::read_symlink("/proc/" + std::to_string(getppid()) + "/fd/1", none);
+  return !none &&
+         (target.string().starts_with("/dev/pts/") || target.string().starts_with("/dev/tty"));
 }
 
-Progress::Progress()
-    : start_(Clock::now()), last_(start_), terminal_(output_is_terminal())
-{
-}
+Progress::Progress() : start_(Clock::now()), last_(start_), terminal_(output_is_terminal()) {}
 
 std::string Progress::line(const ProgressState& state, double seconds) const
 {

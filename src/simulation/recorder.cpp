@@ -2,12 +2,12 @@
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/recorder.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace mpm {
 
@@ -45,10 +45,9 @@ std::vector<double> row(const HistoryLine& line, const std::optional<Apparatus>&
     values.insert(values.end(), {line.strain, line.stress(), line.piston_stress, line.edge_stress});
     if (apparatus->load_cell_body >= 0) values.push_back(line.load_cell_stress);
   }
-  values.insert(values.end(),
-                {line.sums.kinetic_energy, line.sums.elastic_energy, line.sums.plastic_work,
-                 line.external_work, line.energy_error, double(line.sums.particles),
-                 line.time_step});
+  values.insert(values.end(), {line.sums.kinetic_energy, line.sums.elastic_energy,
+                               line.sums.plastic_work, line.external_work, line.energy_error,
+                               double(line.sums.particles), line.time_step});
   if (apparatus)
     values.insert(values.end(), {double(line.behind_piston), double(line.outside_walls)});
   return values;
@@ -57,8 +56,7 @@ std::vector<double> row(const HistoryLine& line, const std::optional<Apparatus>&
 }  // namespace
 
 History::History(const std::filesystem::path& folder, const Stepper<2>& stepper,
-                 std::vector<BoundaryCondition<2>*> conditions,
-                 std::optional<Apparatus> apparatus)
+                 std::vector<BoundaryCondition<2>*> conditions, std::optional<Apparatus> apparatus)
     : comm_(stepper.decomposition().comm()),
       conditions_(std::move(conditions)),
       apparatus_(std::move(apparatus))
@@ -201,8 +199,7 @@ std::vector<double> stresses(const std::vector<Body<2>>& bodies)
 double von_mises(const double* s)
 {
   const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) +
-                   3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
 template <class Function>
@@ -222,19 +219,22 @@ ParticleField make_field(Field field, const Stepper<2>& stepper)
       for (const Body<2>& body : bodies) {
         const int v = body.particles.motion().find("velocity");
         for (LocalIndex p = 0; p < body.particles.size(); ++p)
-          values.insert(values.end(), {body.particles.motion()(v, p),
-                                       body.particles.motion()(v + 1, p), 0.0});
+          values.insert(values.end(),
+                        {body.particles.motion()(v, p), body.particles.motion()(v + 1, p), 0.0});
       }
       return {"velocity", "m/s", 3, std::move(values)};
     }
-    case Field::stress: return {"stress", "Pa", 6, stresses(bodies)};
-    case Field::von_mises: return {"von_mises", "Pa", 1, of_each(stresses(bodies), von_mises)};
+    case Field::stress:
+      return {"stress", "Pa", 6, stresses(bodies)};
+    case Field::von_mises:
+      return {"von_mises", "Pa", 1, of_each(stresses(bodies), von_mises)};
     case Field::pressure:
       return {"pressure", "Pa", 1,
               of_each(stresses(bodies), [](const double* s) { return -(s[0] + s[1] + s[2]) / 3; })};
     case Field::plastic_strain:
       return {"plastic_strain", "1", 1, state_column(bodies, "plastic_strain")};
-    case Field::plastic_work: return {"plastic_work", "J", 1, state_column(bodies, "plastic_work")};
+    case Field::plastic_work:
+      return {"plastic_work", "J", 1, state_column(bodies, "plastic_work")};
     case Field::material: {
       std::vector<std::int32_t> values;
       for (const Body<2>& body : bodies)
@@ -270,9 +270,8 @@ void Snapshots::write(const Stepper<2>& stepper, double strain)
   snapshot.step = stepper.steps();
   for (const Body<2>& body : stepper.bodies())
     for (LocalIndex p = 0; p < body.particles.size(); ++p)
-      snapshot.position.insert(
-          snapshot.position.end(),
-          {body.particles.motion()(0, p), body.particles.motion()(1, p), 0.0});
+      snapshot.position.insert(snapshot.position.end(),
+                               {body.particles.motion()(0, p), body.particles.motion()(1, p), 0.0});
   for (const Field field : fields_) snapshot.fields.push_back(make_field(field, stepper));
   series_.write(snapshot);
 }

@@ -9,12 +9,12 @@
 #include <mpm/simulation/recorder.hpp>
 #include <mpm/simulation/run.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
+
+#include <fmt/format.h>
 
 namespace mpm {
 
@@ -84,8 +84,8 @@ class Run {
     while (!finished()) {
       if (stepper_.steps() % steps_between_speed_checks == 0) {
         if (stepper_.steps() > 0)
-          speed = std::max(layout_.largest_speed,
-                           largest_over_ranks(comm_, stepper_.largest_speed()));
+          speed =
+              std::max(layout_.largest_speed, largest_over_ranks(comm_, stepper_.largest_speed()));
         dt = layout_.cfl * layout_.geometry.smallest_spacing() / (layout_.wave_speed + speed);
       }
       const double last = std::min(dt, end_ - stepper_.time());
@@ -134,8 +134,7 @@ class Run {
   void show(const HistoryLine& line)
   {
     if (rank_of(comm_) != 0) return;
-    const double by_steps =
-        scene_.steps ? double(stepper_.steps()) / double(*scene_.steps) : 0.0;
+    const double by_steps = scene_.steps ? double(stepper_.steps()) / double(*scene_.steps) : 0.0;
     progress_.show({std::max(stepper_.time() / end_, by_steps), long(stepper_.steps()), line.time,
                     line.strain, line.stress(), model_.apparatus.has_value(),
                     long(stepper_.steps() * particles_)});
@@ -167,8 +166,7 @@ class Run {
     // Before the first wave has come back the specimen is not loaded as a whole.
     const double length = model_.apparatus->length;
     analysis::CurveOptions options;
-    options.discard_strain =
-        layout_.piston.displacement(2 * length / layout_.wave_speed) / length;
+    options.discard_strain = layout_.piston.displacement(2 * length / layout_.wave_speed) / length;
     return analysis::compression_properties(strain, stress, options);
   }
 
@@ -183,7 +181,8 @@ class Run {
     for (std::size_t k = 1; k < specimen_.densities.size(); ++k)
       summary.section("windows").set(specimen_.densities[k].window, specimen_.densities[k].value);
     summary.set("particles", particles_);
-    summary.set("cells", std::vector<double>{double(specimen_.cells[0]), double(specimen_.cells[1])});
+    summary.set("cells",
+                std::vector<double>{double(specimen_.cells[0]), double(specimen_.cells[1])});
     summary.set("ranks", ranks_of(comm_));
     summary.set("steps", stepper_.steps());
     summary.set("time_step", first_time_step(layout_));
@@ -193,8 +192,7 @@ class Run {
     summary.set("wall_seconds", seconds_since(start_));
     summary.set("loop_seconds", loop_seconds_);
     summary.set("output_seconds", output_seconds_);
-    summary.set("ns_per_particle_step", 1e9 * (loop_seconds_ - output_seconds_) *
-                                            ranks_of(comm_) /
+    summary.set("ns_per_particle_step", 1e9 * (loop_seconds_ - output_seconds_) * ranks_of(comm_) /
                                             (double(particles_) * double(stepper_.steps())));
     summary.set("largest_rank_bytes", most_bytes);
     summary.set("energy_error", last.energy_error);
@@ -220,15 +218,17 @@ class Run {
       analysis::describe(found, summary.section("compression"));
       print_properties(found);
     }
-    for (const auto& [what, version] : provenance()) summary.section("provenance").set(what, version);
+    for (const auto& [what, version] : provenance())
+      summary.section("provenance").set(what, version);
     summary.section("provenance").set("scene", scene_.file.string());
     summary.write(folder_ / "summary.json");
-    fmt::print("{} steps in {:.1f} s, {:.1f} ns per particle and step, energy error {:.2f} %\n"
-               "results in {}\n",
-               stepper_.steps(), loop_seconds_,
-               1e9 * (loop_seconds_ - output_seconds_) * ranks_of(comm_) /
-                   (double(particles_) * double(stepper_.steps())),
-               100 * last.energy_error, folder_.string());
+    fmt::print(
+        "{} steps in {:.1f} s, {:.1f} ns per particle and step, energy error {:.2f} %\n"
+        "results in {}\n",
+        stepper_.steps(), loop_seconds_,
+        1e9 * (loop_seconds_ - output_seconds_) * ranks_of(comm_) /
+            (double(particles_) * double(stepper_.steps())),
+        100 * last.energy_error, folder_.string());
   }
 
   static void print_properties(const analysis::CompressionProperties& found)

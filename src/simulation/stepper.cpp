@@ -2,10 +2,10 @@
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/stepper.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numeric>
+
+#include <fmt/format.h>
 
 namespace mpm {
 
@@ -81,9 +81,15 @@ template <int Dim>
 void Stepper<Dim>::step(double dt)
 {
   switch (setup_.order) {
-    case UpdateOrderKind::musl: musl(dt); break;
-    case UpdateOrderKind::usf: usf(dt); break;
-    case UpdateOrderKind::usl: usl(dt); break;
+    case UpdateOrderKind::musl:
+      musl(dt);
+      break;
+    case UpdateOrderKind::usf:
+      usf(dt);
+      break;
+    case UpdateOrderKind::usl:
+      usl(dt);
+      break;
   }
   time_ += dt;
   ++steps_;
@@ -92,16 +98,16 @@ void Stepper<Dim>::step(double dt)
 template <int Dim>
 void Stepper<Dim>::musl(double dt)
 {
-  update_grid_velocity(dt);                                           // v_i = ((mv)_i + dt f_i) / m_i
+  update_grid_velocity(dt);  // v_i = ((mv)_i + dt f_i) / m_i
   grid_.reset_remap();
-  for (Body<Dim>& body : bodies_) transfer_->musl_velocity(body, grid_);   // v_p, and back: (mv)_i
+  for (Body<Dim>& body : bodies_) transfer_->musl_velocity(body, grid_);  // v_p, and back: (mv)_i
   halo_.sum_remapped_momentum(grid_);
   grid_.gradient_from_remap();
   constrain_gradient(dt);
 
   grid_.reset();
   std::vector<MoveOutcome<Dim>> outcomes;
-  for (Body<Dim>& body : bodies_)                                     // sigma_p, x_p; m_i, (mv)_i, f_i
+  for (Body<Dim>& body : bodies_)  // sigma_p, x_p; m_i, (mv)_i, f_i
     outcomes.push_back(transfer_->musl_stress(body, grid_, dt, bounds_));
   halo_.sum_mass_momentum_force(grid_);
   finish_move(outcomes, dt);
@@ -112,13 +118,13 @@ void Stepper<Dim>::usf(double dt)
 {
   grid_.gradient_from_momentum();
   constrain_gradient(0);
-  for (Body<Dim>& body : bodies_) transfer_->usf_stress(body, grid_, dt);   // sigma_p; f_i
+  for (Body<Dim>& body : bodies_) transfer_->usf_stress(body, grid_, dt);  // sigma_p; f_i
   halo_.sum_force(grid_);
   update_grid_velocity(dt);
 
   grid_.reset();
   std::vector<MoveOutcome<Dim>> outcomes;
-  for (Body<Dim>& body : bodies_)                                     // v_p, x_p; m_i, (mv)_i
+  for (Body<Dim>& body : bodies_)  // v_p, x_p; m_i, (mv)_i
     outcomes.push_back(transfer_->usf_velocity(body, grid_, dt, bounds_));
   halo_.sum_mass_momentum(grid_);
   finish_move(outcomes, dt);
@@ -132,7 +138,7 @@ void Stepper<Dim>::usl(double dt)
 
   grid_.reset();
   std::vector<MoveOutcome<Dim>> outcomes;
-  for (Body<Dim>& body : bodies_)                                     // all at once
+  for (Body<Dim>& body : bodies_)  // all at once
     outcomes.push_back(transfer_->usl(body, grid_, dt, bounds_));
   halo_.sum_mass_momentum_force(grid_);
   finish_move(outcomes, dt);
@@ -162,7 +168,7 @@ void Stepper<Dim>::finish_move(std::vector<MoveOutcome<Dim>>& outcomes, double d
     lost = lost || outcomes[b].lost.has_value();
     leavers.push_back({&bodies_[b], outcomes[b].blocks_with_leavers});
   }
-  if (lost)   // nothing is sent from a state without meaning
+  if (lost)  // nothing is sent from a state without meaning
     for (auto& entry : leavers) entry.blocks = {};
   const auto exchanged = migration_.exchange(leavers, lost);
   if (exchanged.failed) stop(outcomes);
@@ -220,14 +226,15 @@ void Stepper<Dim>::stop(const std::vector<MoveOutcome<Dim>>& outcomes)
       const char* remedy = !finite || !outside
                                ? "Lower numerics.cfl, or look at the last snapshots."
                                : "Give the grid a wider grid.margin, or lower numerics.cfl.";
-      throw NumericalError(fmt::format(
-          "particle {} of body '{}' {} at ({:.6g}, {:.6g}) m in step {}, t = {:.6g} s, with velocity "
-          "({:.4g}, {:.4g}) m/s. {}",
-          lost.id, bodies_[b].name, what, lost.position[0], lost.position[1], steps_ + 1,
-          time_, lost.velocity[0], lost.velocity[1], remedy));
+      throw NumericalError(
+          fmt::format("particle {} of body '{}' {} at ({:.6g}, {:.6g}) m in step {}, t = {:.6g} s, "
+                      "with velocity "
+                      "({:.4g}, {:.4g}) m/s. {}",
+                      lost.id, bodies_[b].name, what, lost.position[0], lost.position[1],
+                      steps_ + 1, time_, lost.velocity[0], lost.velocity[1], remedy));
     }
   });
-  throw NumericalError("a rank stopped without a reason");   // agree() has thrown before
+  throw NumericalError("a rank stopped without a reason");  // agree() has thrown before
 }
 
 template class Stepper<2>;

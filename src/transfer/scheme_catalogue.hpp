@@ -9,10 +9,14 @@ template <int Dim, class Shape>
 std::unique_ptr<Transfer<Dim>> make_scheme(SchemeKind scheme, Shape shape)
 {
   switch (scheme) {
-    case SchemeKind::flip: return std::make_unique<KernelTransfer<Dim, Shape, Flip>>(shape);
-    case SchemeKind::pic: return std::make_unique<KernelTransfer<Dim, Shape, Pic>>(shape);
-    case SchemeKind::apic: return std::make_unique<KernelTransfer<Dim, Shape, Apic>>(shape);
-    case SchemeKind::tpic: return std::make_unique<KernelTransfer<Dim, Shape, Tpic>>(shape);
+    case SchemeKind::flip:
+      return std::make_unique<KernelTransfer<Dim, Shape, Flip>>(shape);
+    case SchemeKind::pic:
+      return std::make_unique<KernelTransfer<Dim, Shape, Pic>>(shape);
+    case SchemeKind::apic:
+      return std::make_unique<KernelTransfer<Dim, Shape, Apic>>(shape);
+    case SchemeKind::tpic:
+      return std::make_unique<KernelTransfer<Dim, Shape, Tpic>>(shape);
   }
   throw InputError("unknown transfer scheme");
 }

@@ -15,9 +15,12 @@ std::unique_ptr<Transfer<Dim>> make_transfer(ShapeKind shape, SchemeKind scheme,
                                              int particles_per_cell)
 {
   switch (shape) {
-    case ShapeKind::linear: return make_linear_transfer<Dim>(scheme, particles_per_cell);
-    case ShapeKind::gimp: return make_gimp_transfer<Dim>(scheme, particles_per_cell);
-    case ShapeKind::quadratic: return make_quadratic_transfer<Dim>(scheme, particles_per_cell);
+    case ShapeKind::linear:
+      return make_linear_transfer<Dim>(scheme, particles_per_cell);
+    case ShapeKind::gimp:
+      return make_gimp_transfer<Dim>(scheme, particles_per_cell);
+    case ShapeKind::quadratic:
+      return make_quadratic_transfer<Dim>(scheme, particles_per_cell);
   }
   throw InputError("unknown shape function");
 }

@@ -10,8 +10,8 @@ namespace mpm {
 /// What a condition gave to the body since the last `take_reaction`, this rank's nodes only.
 template <int Dim>
 struct Reaction {
-  Vec<Dim> impulse = Vec<Dim>::Zero();   ///< N s, on the body
-  double work = 0;                       ///< J, done on the body
+  Vec<Dim> impulse = Vec<Dim>::Zero();  ///< N s, on the body
+  double work = 0;                      ///< J, done on the body
 };
 
 /// Which momentum a reaction is measured from; it must fit the scheme, or the energy balance opens

@@ -23,7 +23,7 @@ class RigidBody final : public BoundaryCondition<Dim> {
 
   std::vector<Vec<Dim>> points_;
   Vec<Dim> half_size_, velocity_;
-  std::vector<LocalIndex> nodes_;   ///< inside the body, active, ascending
+  std::vector<LocalIndex> nodes_;  ///< inside the body, active, ascending
 };
 
 }  // namespace mpm

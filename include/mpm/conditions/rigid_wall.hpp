@@ -5,8 +5,8 @@ namespace mpm {
 
 /// Constant speed after an optional smooth start: V(t) = V (3 s^2 - 2 s^3), s = t / ramp_time.
 struct WallMotion {
-  double speed = 0;       ///< m/s along the axis, signed
-  double ramp_time = 0;   ///< s
+  double speed = 0;      ///< m/s along the axis, signed
+  double ramp_time = 0;  ///< s
 
   double velocity(double time) const;
   double displacement(double time) const;
@@ -15,8 +15,8 @@ struct WallMotion {
 };
 
 enum class WallGrip {
-  stick,   ///< all components follow the wall
-  slip     ///< the normal one only: also a plane of symmetry
+  stick,  ///< all components follow the wall
+  slip    ///< the normal one only: also a plane of symmetry
 };
 
 /// A plane normal to an axis with a rigid half space behind it: the node nearest to the face and
@@ -30,8 +30,7 @@ class RigidWall final : public BoundaryCondition<Dim> {
     double position;  ///< m, of the face at time 0
   };
 
-  RigidWall(const Placement& placement, const WallMotion& motion, WallGrip grip,
-            ReactionBook book);
+  RigidWall(const Placement& placement, const WallMotion& motion, WallGrip grip, ReactionBook book);
 
   void constrain_updated(NodeGrid<Dim>& grid, double time, double dt) override;
   void constrain_gradient(NodeGrid<Dim>& grid, double time, double dt) override;

@@ -12,9 +12,9 @@ namespace mpm {
 /// The regular background grid of the whole run.
 template <int Dim>
 struct GridGeometry {
-  Vec<Dim> origin;          ///< m, of node 0
-  Vec<Dim> spacing;         ///< m, each axis its own
-  IndexVec<Dim> nodes;      ///< per axis
+  Vec<Dim> origin;      ///< m, of node 0
+  Vec<Dim> spacing;     ///< m, each axis its own
+  IndexVec<Dim> nodes;  ///< per axis
 
   double smallest_spacing() const { return spacing.minCoeff(); }
   double node_position(int axis, LocalIndex index) const
@@ -30,7 +30,7 @@ template <int Dim>
 struct NodeRun {
   LocalIndex first;
   LocalIndex length;
-  IndexVec<Dim> start;   ///< global index of the first node
+  IndexVec<Dim> start;  ///< global index of the first node
 };
 
 template <int Dim>
@@ -91,10 +91,10 @@ class NodeGrid {
 
   // Node values, local numbering, x fastest. [N], [N * record_width], ...; kg, kg m/s and N, m/s.
   LaneVector<double> mass;
-  LaneVector<double> momentum_force;      ///< {mv, f}
-  LaneVector<double> updated;             ///< {v after the step, its increment dt a}
-  LaneVector<double> remapped_momentum;   ///< MUSL
-  LaneVector<double> gradient_velocity;   ///< what the velocity gradient is taken of
+  LaneVector<double> momentum_force;     ///< {mv, f}
+  LaneVector<double> updated;            ///< {v after the step, its increment dt a}
+  LaneVector<double> remapped_momentum;  ///< MUSL
+  LaneVector<double> gradient_velocity;  ///< what the velocity gradient is taken of
 
  private:
   /// Marks what lies up to `below` and `above` nodes from a marked node along every axis.

@@ -17,9 +17,8 @@ struct IsotropicConstants {
   /// In-plane stiffness of the fastest wave: P-wave modulus or E / (1 - nu^2).
   double in_plane_modulus(PlaneAssumption plane) const
   {
-    return plane == PlaneAssumption::strain
-               ? wave_modulus()
-               : youngs_modulus / (1 - poisson_ratio * poisson_ratio);
+    return plane == PlaneAssumption::strain ? wave_modulus()
+                                            : youngs_modulus / (1 - poisson_ratio * poisson_ratio);
   }
 };
 

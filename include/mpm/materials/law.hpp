@@ -14,7 +14,7 @@ namespace mpm {
 /// Independent components of a symmetric tensor in the plane or in space: xx, yy, xy in 2D;
 /// xx, yy, zz, xy, yz, xz in 3D.
 template <int Dim>
-inline constexpr int symmetric_components = Dim * (Dim + 1) / 2;
+inline constexpr int symmetric_components = Dim*(Dim + 1) / 2;
 
 /// State blocks, one behind the other, as ColumnGroup lays them out. One virtual call serves many
 /// particles. Stresses are Kirchhoff stresses tau = J sigma, so that with V0 the reference volume
@@ -50,7 +50,7 @@ class Law {
 template <int Dim>
 struct Body {
   std::string name;
-  int material = 0;   ///< index into the scene's materials
+  int material = 0;  ///< index into the scene's materials
   double density = 0;
   std::unique_ptr<Law<Dim>> law;
   ParticleStore particles;

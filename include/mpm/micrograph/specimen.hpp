@@ -14,9 +14,10 @@ namespace mpm::micrograph {
 /// (images are stored top row first: the mapping turns them over).
 struct Lattice {
   static constexpr std::int8_t empty = -1;
-  int nx = 0, ny = 0;                  ///< locations = cells x particles_per_cell
-  std::vector<std::int8_t> material;   ///< index into scene.materials, or `empty`; nx * ny
-  std::vector<std::int16_t> shape;     ///< index into specimen.shapes (initial velocity); empty for images
+  int nx = 0, ny = 0;                 ///< locations = cells x particles_per_cell
+  std::vector<std::int8_t> material;  ///< index into scene.materials, or `empty`; nx * ny
+  std::vector<std::int16_t>
+      shape;  ///< index into specimen.shapes (initial velocity); empty for images
 
   std::int8_t operator()(int i, int j) const { return material[std::size_t(j) * nx + i]; }
 };
@@ -28,16 +29,16 @@ struct RelativeDensity {
 };
 
 struct SpecimenModel {
-  std::array<double, 2> size;        ///< m
+  std::array<double, 2> size;  ///< m
   std::array<int, 2> cells;
-  int particles_per_cell;            ///< per direction
+  int particles_per_cell;  ///< per direction
   Lattice lattice;
-  std::vector<RelativeDensity> densities;   ///< whole specimen first, then the windows
-  double threshold = 0;              ///< gray level in use (image only)
-  long removed = 0;                  ///< locations removed as specks or unconnected pieces
+  std::vector<RelativeDensity> densities;  ///< whole specimen first, then the windows
+  double threshold = 0;                    ///< gray level in use (image only)
+  long removed = 0;                        ///< locations removed as specks or unconnected pieces
 
   std::int64_t locations() const { return std::int64_t(lattice.nx) * lattice.ny; }
-  std::int64_t particles() const;    ///< filled locations
+  std::int64_t particles() const;  ///< filled locations
 };
 
 /// Reads the image named by the scene, or rasters its shapes.

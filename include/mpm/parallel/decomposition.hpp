@@ -3,12 +3,12 @@
 
 #include <mpm/grid/node_grid.hpp>
 
-#include <mpi.h>
-
 #include <array>
 #include <optional>
 #include <span>
 #include <vector>
+
+#include <mpi.h>
 
 namespace mpm {
 
@@ -44,7 +44,7 @@ class Decomposition {
   int rank_;
   GridGeometry<Dim> geometry_;
   IndexVec<Dim> ranks_of_axis_;
-  std::array<std::vector<LocalIndex>, Dim> cuts_;   ///< first node of each part, and the end
+  std::array<std::vector<LocalIndex>, Dim> cuts_;  ///< first node of each part, and the end
 };
 
 }  // namespace mpm

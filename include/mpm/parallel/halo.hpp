@@ -24,10 +24,10 @@ class Halo {
   const std::vector<LocalIndex>& shared_nodes() const { return shared_; }
 
   // Each is collective over the neighbours.
-  void sum_mass_momentum_force(NodeGrid<Dim>& grid);   ///< MUSL, USL
-  void sum_mass_momentum(NodeGrid<Dim>& grid);         ///< USF
-  void sum_force(NodeGrid<Dim>& grid);                 ///< USF
-  void sum_remapped_momentum(NodeGrid<Dim>& grid);     ///< MUSL
+  void sum_mass_momentum_force(NodeGrid<Dim>& grid);  ///< MUSL, USL
+  void sum_mass_momentum(NodeGrid<Dim>& grid);        ///< USF
+  void sum_force(NodeGrid<Dim>& grid);                ///< USF
+  void sum_remapped_momentum(NodeGrid<Dim>& grid);    ///< MUSL
 
   struct Traffic {
     int neighbours;
@@ -46,11 +46,11 @@ class Halo {
   struct Sharer {
     int rank;
     std::vector<LocalIndex> positions;
-    std::size_t first;   ///< of its values in the receive buffer, in nodes
+    std::size_t first;  ///< of its values in the receive buffer, in nodes
   };
   int rank_;
   std::vector<LocalIndex> shared_;
-  std::vector<Sharer> sharers_;   ///< ascending rank
+  std::vector<Sharer> sharers_;  ///< ascending rank
   std::size_t received_ = 0;
   std::unique_ptr<Exchange> exchange_;
 };

@@ -21,9 +21,9 @@ class Migration {
   };
 
   struct Outcome {
-    GlobalIndex sent = 0;            ///< by this rank
-    std::vector<LocalIndex> arrived; ///< per entry of `leavers`, particles received (at the end)
-    bool failed = false;             ///< some rank called with `failed`
+    GlobalIndex sent = 0;             ///< by this rank
+    std::vector<LocalIndex> arrived;  ///< per entry of `leavers`, particles received (at the end)
+    bool failed = false;              ///< some rank called with `failed`
   };
 
   /// Sends particles to any rank, near or far; arrivals stand at the end of the stores in the order

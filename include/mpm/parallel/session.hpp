@@ -3,12 +3,12 @@
 
 #include <mpm/core/types.hpp>
 
-#include <mpi.h>
-
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <mpi.h>
 
 namespace mpm {
 

@@ -34,9 +34,9 @@ struct LaneAllocator {
   }
   T* allocate(std::size_t n)
   {
-    return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{lane_alignment}));
+    return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{lane_alignment}));
   }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{lane_alignment}); }
+  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{lane_alignment}); }
   friend bool operator==(const LaneAllocator&, const LaneAllocator&) { return true; }
 };
 template <class T>

@@ -25,7 +25,8 @@ struct Answer {
   std::string text;
 };
 
-/// `arguments` without the program's name; `version` is the answer to --version. Throws InputError on wrong usage.
+/// `arguments` without the program's name; `version` is the answer to --version. Throws InputError
+/// on wrong usage.
 std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::string>& arguments,
                                                      const std::string& version);
 

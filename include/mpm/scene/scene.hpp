@@ -31,11 +31,11 @@ struct Material {
   StrainMeasure strain_measure = StrainMeasure::hencky;  ///< isotropic and von_mises only
   double density = 0;                                    ///< kg/m^3
   double youngs_modulus = 0;                             ///< Pa; transverse one if TI
-  double poisson_ratio = 0;                             ///< transverse one if TI
+  double poisson_ratio = 0;                              ///< transverse one if TI
   double yield_stress = 0;                               ///< Pa, von_mises
   double hardening_modulus = 0;                          ///< Pa, von_mises
   double axial_modulus = 0;                              ///< Pa, TI
-  double axial_poisson_ratio = 0;                       ///< -strain_T/strain_A, axial load, TI
+  double axial_poisson_ratio = 0;                        ///< -strain_T/strain_A, axial load, TI
   double axial_shear_modulus = 0;                        ///< Pa, TI
   UniqueAxis unique_axis = UniqueAxis::out_of_plane;     ///< TI
   double axis_angle = 0;                                 ///< rad from +x, TI with in_plane
@@ -65,20 +65,20 @@ struct Window {
 };
 
 struct Micrograph {
-  std::filesystem::path file;                          ///< resolved against the scene's folder
-  std::optional<std::array<double, 2>> image_size;     ///< m, of the whole image as stored
-  std::optional<std::array<double, 2>> pixel_size;     ///< m
-  std::optional<std::array<int, 4>> crop;              ///< pixels of the file: x, y (from top), width, height
-  int rotate = 0;                                      ///< degrees counter-clockwise: 0, 90, 180, 270
-  bool flip_horizontal = false;                        ///< after the rotation
+  std::filesystem::path file;                       ///< resolved against the scene's folder
+  std::optional<std::array<double, 2>> image_size;  ///< m, of the whole image as stored
+  std::optional<std::array<double, 2>> pixel_size;  ///< m
+  std::optional<std::array<int, 4>> crop;  ///< pixels of the file: x, y (from top), width, height
+  int rotate = 0;                          ///< degrees counter-clockwise: 0, 90, 180, 270
+  bool flip_horizontal = false;            ///< after the rotation
   bool flip_vertical = false;
   Wall wall = Wall::bright;
   ThresholdRule threshold_rule = ThresholdRule::value;
-  double threshold = 150;                ///< gray level of 0..255
-  double target_relative_density = 0;    ///< with ThresholdRule::target_relative_density
-  int remove_specks = 0;                 ///< wall pieces of fewer locations than this are void
-  bool remove_unconnected = false;       ///< keep only pieces linked to the largest
-  std::vector<GrayBand> bands;           ///< several materials by gray; empty: one material
+  double threshold = 150;              ///< gray level of 0..255
+  double target_relative_density = 0;  ///< with ThresholdRule::target_relative_density
+  int remove_specks = 0;               ///< wall pieces of fewer locations than this are void
+  bool remove_unconnected = false;     ///< keep only pieces linked to the largest
+  std::vector<GrayBand> bands;         ///< several materials by gray; empty: one material
   bool operator==(const Micrograph&) const = default;
 };
 
@@ -98,14 +98,14 @@ struct Polygon {
 /// Regular hexagonal honeycomb that fills the box.
 struct Honeycomb {
   std::array<double, 2> lower, upper;
-  double cell_side;        ///< m, centre-line length of a hexagon's side
-  double wall_thickness;   ///< m
+  double cell_side;       ///< m, centre-line length of a hexagon's side
+  double wall_thickness;  ///< m
   bool operator==(const Honeycomb&) const = default;
 };
 struct Shape {
   std::variant<Box, Disc, Polygon, Honeycomb> geometry;
-  std::string material;                      ///< name; "void" cuts a hole in earlier shapes
-  std::array<double, 2> velocity{0, 0};      ///< m/s, initial
+  std::string material;                  ///< name; "void" cuts a hole in earlier shapes
+  std::array<double, 2> velocity{0, 0};  ///< m/s, initial
   bool operator==(const Shape&) const = default;
 };
 
@@ -113,7 +113,7 @@ struct Shape {
 struct Specimen {
   std::optional<Micrograph> micrograph;
   std::vector<Shape> shapes;
-  std::array<double, 2> size{0, 0};          ///< m; from the image if there is one
+  std::array<double, 2> size{0, 0};  ///< m; from the image if there is one
   std::vector<Window> windows;
   bool operator==(const Specimen&) const = default;
 };
@@ -121,9 +121,9 @@ struct Specimen {
 // ---------------------------------------------------------------------------- numerics
 
 struct Grid {
-  std::optional<std::array<int, 2>> cells;        ///< over the specimen
-  std::optional<std::array<double, 2>> spacing;   ///< m; rounded so that whole cells fit
-  int particles_per_cell = 2;                     ///< per direction
+  std::optional<std::array<int, 2>> cells;       ///< over the specimen
+  std::optional<std::array<double, 2>> spacing;  ///< m; rounded so that whole cells fit
+  int particles_per_cell = 2;                    ///< per direction
   /// Empty space left, right, below, above the specimen, m.
   std::array<double, 4> margin{0, 0, 0, 0};
   bool operator==(const Grid&) const = default;
@@ -135,12 +135,12 @@ enum class UpdateOrder { musl, usf, usl };
 
 struct Numerics {
   Plane plane = Plane::strain;
-  double thickness = 1;                  ///< m, out of plane
+  double thickness = 1;  ///< m, out of plane
   ShapeFunction shape_function = ShapeFunction::gimp;
   TransferScheme scheme = TransferScheme::flip;
   UpdateOrder update_order = UpdateOrder::musl;
-  std::optional<double> cfl;             ///< default depends on shape function and update order
-  std::array<int, 2> ranks{0, 0};        ///< process grid; 0: chosen
+  std::optional<double> cfl;       ///< default depends on shape function and update order
+  std::array<int, 2> ranks{0, 0};  ///< process grid; 0: chosen
   bool operator==(const Numerics&) const = default;
 };
 
@@ -150,26 +150,27 @@ enum class Lateral { rigid, free, symmetric };
 enum class Grip { stick, slip };
 
 struct LoadCell {
-  int cells = 3;                 ///< thickness in grid cells
-  double stiffness_ratio = 10;   ///< modulus and density relative to the first material
+  int cells = 3;                ///< thickness in grid cells
+  double stiffness_ratio = 10;  ///< modulus and density relative to the first material
   bool operator==(const LoadCell&) const = default;
 };
 
 struct Loading {
   Side piston = Side::right;
-  double speed = 0;              ///< m/s
-  double strain = 0.6;           ///< end of the run
+  double speed = 0;     ///< m/s
+  double strain = 0.6;  ///< end of the run
   /// s, smooth start (0: at once). Default: eight times what the fastest wave needs to cross.
   std::optional<double> ramp_time;
-  Grip grip = Grip::stick;       ///< of piston and fixed edge
+  Grip grip = Grip::stick;                                         ///< of piston and fixed edge
   std::array<Lateral, 2> lateral{Lateral::rigid, Lateral::rigid};  ///< lower (left), upper (right)
   std::optional<LoadCell> load_cell;
   bool operator==(const Loading&) const = default;
 };
 
-/// Free motion without a piston: runs to `end_time`; each side of the grid rigid, free or symmetric.
+/// Free motion without a piston: runs to `end_time`; each side of the grid rigid, free or
+/// symmetric.
 struct FreeMotion {
-  double end_time = 0;                                                ///< s
+  double end_time = 0;  ///< s
   std::array<Lateral, 4> sides{Lateral::free, Lateral::free, Lateral::free, Lateral::free};
   bool operator==(const FreeMotion&) const = default;
 };
@@ -177,28 +178,36 @@ struct FreeMotion {
 // ---------------------------------------------------------------------------- output
 
 enum class Field {
-  velocity, stress, von_mises, pressure, plastic_strain, plastic_work, material, id, rank
+  velocity,
+  stress,
+  von_mises,
+  pressure,
+  plastic_strain,
+  plastic_work,
+  material,
+  id,
+  rank
 };
 
 struct Output {
   int history_lines = 600;
-  std::vector<double> snapshot_strains;   ///< with a piston
-  std::vector<double> snapshot_times;     ///< s
+  std::vector<double> snapshot_strains;                              ///< with a piston
+  std::vector<double> snapshot_times;                                ///< s
   std::vector<Field> fields{Field::von_mises, Field::plastic_work};  ///< position is always there
-  bool compress = false;                  ///< gzip 1 + shuffle: half the size, 3-4 times the time
+  bool compress = false;  ///< gzip 1 + shuffle: half the size, 3-4 times the time
   bool operator==(const Output&) const = default;
 };
 
 struct Scene {
-  std::filesystem::path file;   ///< as given
-  std::string name;             ///< stem of the file unless `name` is given
+  std::filesystem::path file;  ///< as given
+  std::string name;            ///< stem of the file unless `name` is given
   std::string title;
   std::vector<Material> materials;
   Specimen specimen;
   Grid grid;
   Numerics numerics;
   std::variant<Loading, FreeMotion> motion;
-  std::optional<long> steps;    ///< end after this many steps (benchmarks)
+  std::optional<long> steps;  ///< end after this many steps (benchmarks)
   Output output;
   bool operator==(const Scene&) const = default;
 };

@@ -8,11 +8,11 @@ namespace mpm {
 struct ParticleSums {
   GlobalIndex particles = 0;
   GlobalIndex id_sum = 0;
-  double mass = 0;              ///< kg
-  double kinetic_energy = 0;    ///< J
-  double elastic_energy = 0;    ///< J
-  double plastic_work = 0;      ///< J
-  std::array<double, 2> momentum{0, 0};   ///< kg m/s
+  double mass = 0;                       ///< kg
+  double kinetic_energy = 0;             ///< J
+  double elastic_energy = 0;             ///< J
+  double plastic_work = 0;               ///< J
+  std::array<double, 2> momentum{0, 0};  ///< kg m/s
 };
 
 /// Over all ranks. Collective.
@@ -21,8 +21,8 @@ ParticleSums sum_particles(MPI_Comm comm, const std::vector<Body<2>>& bodies);
 /// Particles behind the face of a rigid wall.
 struct Penetration {
   GlobalIndex particles = 0;
-  double deepest = 0;                  ///< m
-  std::vector<GlobalIndex> ids;        ///< of this rank, deeper than one cell; at most ten
+  double deepest = 0;            ///< m
+  std::vector<GlobalIndex> ids;  ///< of this rank, deeper than one cell; at most ten
 };
 
 /// The sum over the ranks; `ids` stay this rank's. Collective.

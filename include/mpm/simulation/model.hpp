@@ -14,10 +14,10 @@ namespace mpm {
 struct Apparatus {
   RigidWall<2>* piston = nullptr;
   RigidWall<2>* edge = nullptr;
-  std::array<RigidWall<2>*, 2> lateral{nullptr, nullptr};   ///< none where free
+  std::array<RigidWall<2>*, 2> lateral{nullptr, nullptr};  ///< none where free
   int axis = 0;
-  double length = 0;   ///< m, of the specimen along the axis (without the load cell)
-  double area = 0;     ///< m^2, reference cross-section
+  double length = 0;  ///< m, of the specimen along the axis (without the load cell)
+  double area = 0;    ///< m^2, reference cross-section
   int load_cell_body = -1;
 };
 
@@ -28,21 +28,24 @@ double time_of_strain(const scene::Scene& scene, const micrograph::SpecimenModel
 /// What does not depend on the rank.
 struct Layout {
   GridGeometry<2> geometry;
-  std::array<double, 2> specimen_lower;   ///< m, where the lattice starts
-  std::array<double, 2> location_size;    ///< m
-  std::array<LocalIndex, 2> padding;      ///< cells left of and below the specimen
-  double particle_volume;                 ///< m^3
-  double largest_particle_mass;           ///< kg
-  double wave_speed;                      ///< m/s, of the stiffest body
+  std::array<double, 2> specimen_lower;  ///< m, where the lattice starts
+  std::array<double, 2> location_size;   ///< m
+  std::array<LocalIndex, 2> padding;     ///< cells left of and below the specimen
+  double particle_volume;                ///< m^3
+  double largest_particle_mass;          ///< kg
+  double wave_speed;                     ///< m/s, of the stiffest body
   double cfl;
-  double largest_speed;                   ///< m/s, piston or initial
+  double largest_speed;  ///< m/s, piston or initial
   /// Of the piston, towards the specimen; and the time at which it reaches the last strain, s.
   WallMotion piston;
   double end_time;
   /// Particles per cell layer along each axis, all bodies.
   std::array<std::vector<double>, 2> layer_weights;
-  struct LoadCellBox { IndexBox<2> locations; double density_ratio; };
-  std::optional<LoadCellBox> load_cell;   ///< in locations from the specimen's lower left corner
+  struct LoadCellBox {
+    IndexBox<2> locations;
+    double density_ratio;
+  };
+  std::optional<LoadCellBox> load_cell;  ///< in locations from the specimen's lower left corner
 };
 
 Layout make_layout(const scene::Scene& scene, const micrograph::SpecimenModel& specimen);

@@ -7,13 +7,13 @@
 namespace mpm {
 
 struct ProgressState {
-  double fraction = 0;       ///< of the run
+  double fraction = 0;  ///< of the run
   long step = 0;
-  double time = 0;           ///< s
+  double time = 0;  ///< s
   double strain = 0;
-  double stress = 0;         ///< Pa, piston
-  bool loaded = false;       ///< strain and stress mean something
-  long particle_steps = 0;   ///< done so far, all ranks
+  double stress = 0;        ///< Pa, piston
+  bool loaded = false;      ///< strain and stress mean something
+  long particle_steps = 0;  ///< done so far, all ranks
 };
 
 /// Used on one rank.

@@ -14,16 +14,16 @@ namespace mpm {
 
 /// One line of history.csv.
 struct HistoryLine {
-  double time = 0;            ///< s
-  double strain = 0;          ///< piston displacement / specimen length
-  double piston_stress = 0;   ///< Pa, mean since the last line, compression positive
-  double edge_stress = 0;     ///< Pa
-  double load_cell_stress = 0;   ///< Pa, where there is a load cell
+  double time = 0;              ///< s
+  double strain = 0;            ///< piston displacement / specimen length
+  double piston_stress = 0;     ///< Pa, mean since the last line, compression positive
+  double edge_stress = 0;       ///< Pa
+  double load_cell_stress = 0;  ///< Pa, where there is a load cell
   ParticleSums sums;
-  double external_work = 0;   ///< J, of all conditions
-  double energy_error = 0;    ///< what is too much in the energy balance / external work
-  double time_step = 0;       ///< s
-  GlobalIndex behind_piston = 0, outside_walls = 0;   ///< particles
+  double external_work = 0;  ///< J, of all conditions
+  double energy_error = 0;   ///< what is too much in the energy balance / external work
+  double time_step = 0;      ///< s
+  GlobalIndex behind_piston = 0, outside_walls = 0;  ///< particles
 
   /// The applied stress: mean of both ends, in which a wave on its way counts once.
   double stress() const { return 0.5 * (piston_stress + edge_stress); }
@@ -44,7 +44,7 @@ class History {
   const HistoryLine& record(const Stepper<2>& stepper, double dt);
 
   const std::vector<HistoryLine>& lines() const { return lines_; }
-  double deepest_behind_piston() const { return deepest_behind_piston_; }   ///< m, whole run
+  double deepest_behind_piston() const { return deepest_behind_piston_; }  ///< m, whole run
 
  private:
   void check(const Stepper<2>& stepper, const HistoryLine& line) const;
@@ -54,7 +54,7 @@ class History {
   MPI_Comm comm_;
   std::vector<BoundaryCondition<2>*> conditions_;
   std::optional<Apparatus> apparatus_;
-  std::unique_ptr<output::HistoryFile> file_;   ///< rank 0
+  std::unique_ptr<output::HistoryFile> file_;  ///< rank 0
   std::vector<HistoryLine> lines_;
   ParticleSums start_;
   double external_work_ = 0;

@@ -26,7 +26,7 @@ class Stepper {
  public:
   struct Setup {
     UpdateOrderKind order = UpdateOrderKind::musl;
-    double mass_cut = 0;   ///< kg; nodes with less are not active
+    double mass_cut = 0;  ///< kg; nodes with less are not active
   };
 
   Stepper(const Decomposition<Dim>& decomposition, std::unique_ptr<Transfer<Dim>> transfer,
@@ -76,7 +76,7 @@ class Stepper {
   GlobalIndex steps_ = 0;
   GlobalIndex migrated_ = 0;
   double largest_speed_ = 0;
-  double moved_since_sort_ = 0;   ///< m, bound on any particle's motion
+  double moved_since_sort_ = 0;  ///< m, bound on any particle's motion
   int steps_since_sort_ = 0;
   std::vector<LocalIndex> first_nodes_, order_, counts_;
 };

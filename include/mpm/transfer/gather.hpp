@@ -14,8 +14,7 @@ inline void gather_gradient(const Stencil<Dim, Shape>& stencil, const NodeGrid<D
   constexpr int width = NodeGrid<Dim>::velocity_width;
   const SpilledWeights<Dim, n> w(stencil.weight), g(stencil.gradient);
   for (int lane = 0; lane < lane_count; ++lane) {
-    const double* node =
-        grid.gradient_velocity.data() + std::size_t(stencil.base[lane]) * width;
+    const double* node = grid.gradient_velocity.data() + std::size_t(stencil.base[lane]) * width;
     if constexpr (Dim == 2) {
       // {vx, vy, vx, vy} times {g, g, w, w} along x, then {w, w, g, g} along y: both columns of
       // the gradient in one register.
@@ -27,8 +26,7 @@ inline void gather_gradient(const Stencil<Dim, Shape>& stencil, const NodeGrid<D
         Record<4> sum = 0.0;
         for (int a = 0; a < n; ++a)
           sum += Record<4>(node + b * row + a * width, stdx::element_aligned) * along_x[a];
-        total +=
-            sum * Record<4>([&](auto k) { return k < 2 ? w(1, b, lane) : g(1, b, lane); });
+        total += sum * Record<4>([&](auto k) { return k < 2 ? w(1, b, lane) : g(1, b, lane); });
       }
       for (int k = 0; k < 4; ++k) gradient[k * lane_count + lane] = total[k];
     } else {
@@ -38,10 +36,10 @@ inline void gather_gradient(const Stencil<Dim, Shape>& stencil, const NodeGrid<D
         for (int b = 0; b < n; ++b) {
           Record<4> row_gradient = 0.0, row = 0.0;
           for (int a = 0; a < n; ++a) {
-            const Record<4> v(node + (std::size_t(c) * grid.stride(2) +
-                                      std::size_t(b) * grid.stride(1) + a) *
-                                         width,
-                              stdx::element_aligned);
+            const Record<4> v(
+                node +
+                    (std::size_t(c) * grid.stride(2) + std::size_t(b) * grid.stride(1) + a) * width,
+                stdx::element_aligned);
             row_gradient += v * g(0, a, lane);
             row += v * w(0, a, lane);
           }

@@ -12,8 +12,8 @@ namespace mpm {
 
 /// What a pass does, in this order.
 struct PassContent {
-  bool gradient = false;   ///< velocity gradient at the old place, stress update
-  bool velocity = false;   ///< G2P of the velocity
+  bool gradient = false;  ///< velocity gradient at the old place, stress update
+  bool velocity = false;  ///< G2P of the velocity
   bool move = false;
   ScatterContent scatter;  ///< P2G at the new place
 };
@@ -74,8 +74,8 @@ class KernelTransfer final : public Transfer<Dim> {
                                 const MoveBounds<Dim>& bounds) const override
   {
     return pass<PassContent{
-        .velocity = true, .move = true, .scatter = {.mass = true, .momentum = true}}>(
-        body, grid, dt, &bounds);
+        .velocity = true, .move = true, .scatter = {.mass = true, .momentum = true}}>(body, grid,
+                                                                                      dt, &bounds);
   }
 
   MoveOutcome<Dim> usl(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
@@ -132,8 +132,7 @@ class KernelTransfer final : public Transfer<Dim> {
       }
       for (int k = 0; k < blocks; ++k)
         move_and_scatter<Content>(particles, first + k, grid, dt, bounds,
-                                  force_stress + k * stress_width, scatter, largest_speed,
-                                  outcome);
+                                  force_stress + k * stress_width, scatter, largest_speed, outcome);
     }
     outcome.largest_speed = stdx::hmax(largest_speed);
     return outcome;

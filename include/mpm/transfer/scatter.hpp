@@ -72,7 +72,7 @@ class Scatter {
         double w_row = w(1, b, lane);
         if constexpr (Dim == 3) w_row *= w(2, c, lane);
         if constexpr (Content.mass) mass_[row] += mass_row * w_row;
-        R at_row = plain;   // without the force: times w along x
+        R at_row = plain;  // without the force: times w along x
         if constexpr (Affine) {
           at_row += along[1] * offset(1, b, lane);
           if constexpr (Dim == 3) at_row += along[2] * offset(2, c, lane);
@@ -80,16 +80,15 @@ class Scatter {
         at_row = at_row * w_row;
         if constexpr (Content.force) {
           if constexpr (Dim == 3)
-            at_row += tau[1] * (g(1, b, lane) * w(2, c, lane)) +
-                      tau[2] * (w(1, b, lane) * g(2, c, lane));
+            at_row +=
+                tau[1] * (g(1, b, lane) * w(2, c, lane)) + tau[2] * (w(1, b, lane) * g(2, c, lane));
           else
             at_row += tau[1] * g(1, b, lane);
         }
         for (int a = 0; a < n; ++a) {
           R value = at_row * w(0, a, lane);
           if constexpr (Content.force) value += (tau[0] * w_row) * g(0, a, lane);
-          if constexpr (Affine)
-            value += (along[0] * w_row) * (w(0, a, lane) * offset(0, a, lane));
+          if constexpr (Affine) value += (along[0] * w_row) * (w(0, a, lane) * offset(0, a, lane));
           sum_[row * n + a] += value;
         }
       }

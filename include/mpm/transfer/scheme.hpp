@@ -40,8 +40,7 @@ struct MotionColumns {
 
   static std::vector<Column> columns(bool musl)
   {
-    std::vector<Column> list{
-        {"position", Dim, "m"}, {"velocity", Dim, "m/s"}, {"mass", 1, "kg"}};
+    std::vector<Column> list{{"position", Dim, "m"}, {"velocity", Dim, "m/s"}, {"mass", 1, "kg"}};
     if (Scheme::affine) list.push_back({"affine_velocity", Dim * Dim, "1/s"});
     if (musl) list.push_back({"grid_velocity", Dim, "m/s"});
     return list;

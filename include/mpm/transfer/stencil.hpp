@@ -13,9 +13,9 @@ struct Stencil {
   static constexpr int support = Shape::support;
 
   Lanes weight[Dim][support];
-  Lanes gradient[Dim][support];   ///< 1/m
-  Lanes offset[Dim][support];     ///< x_i - x_p, m; filled by `measure_offsets`
-  alignas(lane_alignment) double base[lane_count];   ///< first node, local numbering (whole numbers)
+  Lanes gradient[Dim][support];                     ///< 1/m
+  Lanes offset[Dim][support];                       ///< x_i - x_p, m; filled by `measure_offsets`
+  alignas(lane_alignment) double base[lane_count];  ///< first node, local numbering (whole numbers)
 
   Stencil(const Lanes (&position)[Dim], const NodeGrid<Dim>& grid, const Shape& shape)
   {
@@ -56,7 +56,7 @@ struct Stencil {
   }
 
  private:
-  Lanes local_[Dim];   ///< position from the first node, in cells
+  Lanes local_[Dim];  ///< position from the first node, in cells
 };
 
 /// One-dimensional weights spilled to memory, so that one lane's can be read as a scalar.

@@ -17,15 +17,15 @@ enum class SchemeKind { flip, pic, apic, tpic };
 template <int Dim>
 struct LostParticle {
   GlobalIndex id;
-  Vec<Dim> position = Vec<Dim>::Zero();   ///< m
-  Vec<Dim> velocity = Vec<Dim>::Zero();   ///< m/s
+  Vec<Dim> position = Vec<Dim>::Zero();  ///< m
+  Vec<Dim> velocity = Vec<Dim>::Zero();  ///< m/s
 };
 
 /// What a pass that moves particles found out on the way.
 template <int Dim>
 struct MoveOutcome {
-  double largest_speed = 0;                    ///< m/s, largest component of a grid velocity
-  std::vector<LocalIndex> blocks_with_leavers; ///< blocks that hold a particle outside `home`
+  double largest_speed = 0;                     ///< m/s, largest component of a grid velocity
+  std::vector<LocalIndex> blocks_with_leavers;  ///< blocks that hold a particle outside `home`
   std::optional<LostParticle<Dim>> lost;
 };
 
