@@ -14,6 +14,16 @@ if(NOT HDF5_IS_PARALLEL)
                       "(Debian: libhdf5-openmpi-dev, or -DHDF5_C_COMPILER_EXECUTABLE=h5pcc)")
 endif()
 
+# Debian ships METIS without a CMake or pkg-config file.
+find_path(METIS_INCLUDE_DIR metis.h REQUIRED)
+find_library(METIS_LIBRARY metis REQUIRED)
+file(STRINGS ${METIS_INCLUDE_DIR}/metis.h METIS_VERSION REGEX "define METIS_VER_")
+string(REGEX REPLACE "[^;0-9]*([0-9]+)[^;]*" "\\1" METIS_VERSION "${METIS_VERSION}")
+string(REPLACE ";" "." METIS_VERSION "${METIS_VERSION}")
+add_library(METIS::METIS UNKNOWN IMPORTED)
+set_target_properties(METIS::METIS PROPERTIES IMPORTED_LOCATION ${METIS_LIBRARY}
+                      INTERFACE_INCLUDE_DIRECTORIES ${METIS_INCLUDE_DIR})
+
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(yaml-cpp REQUIRED)
 if(NOT TARGET yaml-cpp::yaml-cpp)  # 0.7 exports yaml-cpp only
