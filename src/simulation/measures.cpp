@@ -35,7 +35,7 @@ ParticleSums sum_particles(MPI_Comm comm, const std::vector<Body<2>>& bodies)
   }
   sum_over_ranks(comm, counts);
   sum_over_ranks(comm, sums);
-  return {counts[0], counts[1], sums[0], sums[1], sums[2], sums[3], {sums[4], sums[5]}};
+  return {counts[0], counts[1], sums[0], sums[1], sums[2], sums[3], Vec<2>(sums[4], sums[5])};
 }
 
 Penetration find_behind(MPI_Comm comm, const std::vector<Body<2>>& bodies,

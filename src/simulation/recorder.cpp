@@ -29,6 +29,7 @@ std::vector<output::HistoryColumn> columns(const std::optional<Apparatus>& appar
   for (const char* energy : {"kinetic_energy", "elastic_energy", "plastic_work", "external_work"})
     list.push_back({energy, "J"});
   list.push_back({"energy_error", "1"});
+  list.push_back({"momentum_error", "1"});
   list.push_back({"particles", "1"});
   list.push_back({"time_step", "s"});
   if (apparatus) {
@@ -47,7 +48,7 @@ std::vector<double> row(const HistoryLine& line, const std::optional<Apparatus>&
   }
   values.insert(values.end(), {line.sums.kinetic_energy, line.sums.elastic_energy,
                                line.sums.plastic_work, line.external_work, line.energy_error,
-                               double(line.sums.particles), line.time_step});
+                               line.momentum_error, double(line.sums.particles), line.time_step});
   if (apparatus)
     values.insert(values.end(), {double(line.behind_piston), double(line.outside_walls)});
   return values;
@@ -85,20 +86,25 @@ const HistoryLine& History::record(const Stepper<2>& stepper, double dt)
   line.time_step = dt;
   line.sums = sum_particles(comm_, stepper.bodies());
 
-  // Impulses of piston and edge along the axis, work of all conditions, load cell.
-  std::array<double, 5> reactions{};
+  // Load cell, then work and impulse of each condition.
+  std::vector<double> sums{load_cell_.mass_stress, load_cell_.mass};
   for (BoundaryCondition<2>* condition : conditions_) {
     const Reaction<2> reaction = condition->take_reaction();
-    reactions[2] += reaction.work;
-    if (!apparatus_) continue;
-    if (condition == apparatus_->piston) reactions[0] = reaction.impulse[apparatus_->axis];
-    if (condition == apparatus_->edge) reactions[1] = reaction.impulse[apparatus_->axis];
+    sums.insert(sums.end(), {reaction.work, reaction.impulse[0], reaction.impulse[1]});
   }
-  reactions[3] = load_cell_.mass_stress;
-  reactions[4] = load_cell_.mass;
   load_cell_ = {};
-  sum_over_ranks(comm_, reactions);
-  external_work_ += reactions[2];
+  sum_over_ranks(comm_, sums);
+  if (sums[1] > 0) line.load_cell_stress = -sums[0] / sums[1];
+  double piston_impulse = 0, edge_impulse = 0;  // along the axis
+  for (std::size_t k = 0; k < conditions_.size(); ++k) {
+    const Vec<2> impulse(sums[3 * k + 3], sums[3 * k + 4]);
+    external_work_ += sums[3 * k + 2];
+    impulse_ += impulse;
+    impulse_size_ += impulse.norm();
+    if (!apparatus_) continue;
+    if (conditions_[k] == apparatus_->piston) piston_impulse = impulse[apparatus_->axis];
+    if (conditions_[k] == apparatus_->edge) edge_impulse = impulse[apparatus_->axis];
+  }
   line.external_work = external_work_;
   if (apparatus_) {
     line.strain =
@@ -107,9 +113,8 @@ const HistoryLine& History::record(const Stepper<2>& stepper, double dt)
     const double towards = apparatus_->piston->placement().upper ? -1 : 1;
     const double per_area = 1 / (apparatus_->area * std::max(line.time - last_time_, 1e-300));
     // + 0.0: no minus before a zero.
-    line.piston_stress = towards * reactions[0] * per_area + 0.0;
-    line.edge_stress = -towards * reactions[1] * per_area + 0.0;
-    if (reactions[4] > 0) line.load_cell_stress = -reactions[3] / reactions[4];
+    line.piston_stress = towards * piston_impulse * per_area + 0.0;
+    line.edge_stress = -towards * edge_impulse * per_area + 0.0;
     count_outside(stepper, line);
   }
   last_time_ = line.time;
@@ -118,6 +123,9 @@ const HistoryLine& History::record(const Stepper<2>& stepper, double dt)
                          start_.elastic_energy;
   const double scale = std::max(std::abs(line.external_work), start_.kinetic_energy);
   line.energy_error = scale > 0 ? surplus / scale : 0;
+  const double pushes = impulse_size_ + start_.momentum.norm();
+  if (pushes > 0)
+    line.momentum_error = (line.sums.momentum - start_.momentum - impulse_).norm() / pushes;
   check(stepper, line);
   agree(comm_, [&] {
     if (file_) file_->append(row(line, apparatus_));

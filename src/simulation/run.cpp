@@ -62,7 +62,7 @@ class Run {
         conditions_(pointers(model_.conditions)),
         stepper_(decomposition, std::move(model_.transfer), std::move(model_.bodies),
                  std::move(model_.conditions),
-                 {update_order_of(scene), 1e-12 * layout.largest_particle_mass}),
+                 {update_order_of(scene), 1e-24 * layout.largest_particle_mass}),
         history_(folder, stepper_, conditions_, model_.apparatus),
         snapshots_(scene, folder, comm_),
         moments_(snapshot_moments(scene, specimen, layout)),

@@ -21,6 +21,9 @@ class RankInvariance(ProgramTest):
             self.assertEqual(first.names, other.names)
             self.assertEqual(len(first), len(other))
             for name in first.names:
+                if name == "momentum_error":  # Rounding itself: its size is what counts.
+                    self.assertLess(max(other[name]), 1e-9)
+                    continue
                 largest = max(map(abs, first[name]))
                 for line, (one, more) in enumerate(zip(first[name], other[name])):
                     self.assertLessEqual(abs(one - more), 1e-9 * largest,

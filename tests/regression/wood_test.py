@@ -19,6 +19,7 @@ class Wood(ProgramTest):
         for at, error in zip(history["strain"], history["energy_error"]):
             if at > 0.01:
                 self.assertLess(abs(error), CLOSED, f"{name} at strain {at}")
+        self.assertLess(max(history["momentum_error"]), 1e-9)
         # Half of the narrowest cell: nobody is far behind the piston's face.
         self.assertLess(found["deepest_behind_piston"], 5e-6)
         return history, found

@@ -18,10 +18,12 @@ struct Gimp {
     const Lanes t = stdx::max(r - (1.0 - half_size), Lanes(0.0));
     const Lanes e = t * (0.5 / half_size);
     const Lanes q = 0.5 * t * e;
-    w[0] = 1.0 - r + q;
+    // 1 - r + q, without its cancellation where the particle's domain leaves this node's cell.
+    const Lanes f = 1.0 - e;
+    w[0] = half_size * f * f + stdx::max((1.0 - half_size) - r, Lanes(0.0));
     w[1] = r - 2.0 * q;
     w[2] = q;
-    g[0] = (e - 1.0) * inverse_h;
+    g[0] = -f * inverse_h;
     g[1] = (1.0 - 2.0 * e) * inverse_h;
     g[2] = e * inverse_h;
   }

@@ -8,11 +8,11 @@ namespace mpm {
 struct ParticleSums {
   GlobalIndex particles = 0;
   GlobalIndex id_sum = 0;
-  double mass = 0;                       ///< kg
-  double kinetic_energy = 0;             ///< J
-  double elastic_energy = 0;             ///< J
-  double plastic_work = 0;               ///< J
-  std::array<double, 2> momentum{0, 0};  ///< kg m/s
+  double mass = 0;                   ///< kg
+  double kinetic_energy = 0;         ///< J
+  double elastic_energy = 0;         ///< J
+  double plastic_work = 0;           ///< J
+  Vec<2> momentum = Vec<2>::Zero();  ///< kg m/s
 };
 
 /// Over all ranks. Collective.

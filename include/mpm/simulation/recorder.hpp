@@ -22,7 +22,10 @@ struct HistoryLine {
   ParticleSums sums;
   double external_work = 0;  ///< J, of all conditions
   double energy_error = 0;   ///< what is too much in the energy balance / external work
-  double time_step = 0;      ///< s
+  /// |momentum gained - impulse of all conditions| / (sum of the impulses' sizes + momentum at
+  /// the start): rounding, unless something is lost.
+  double momentum_error = 0;
+  double time_step = 0;                              ///< s
   GlobalIndex behind_piston = 0, outside_walls = 0;  ///< particles
 
   /// The applied stress: mean of both ends, in which a wave on its way counts once.
@@ -58,6 +61,8 @@ class History {
   std::vector<HistoryLine> lines_;
   ParticleSums start_;
   double external_work_ = 0;
+  Vec<2> impulse_ = Vec<2>::Zero();  ///< N s, of all conditions
+  double impulse_size_ = 0;          ///< N s, sum of the sizes
   double last_time_ = 0;
   AxialStress load_cell_;
   double deepest_behind_piston_ = 0;
