@@ -42,50 +42,50 @@ class KernelTransfer final : public Transfer<Dim> {
     nodes.resize(particles.size());
   }
 
-  void prime(Body<Dim>& body, NodeGrid<Dim>& grid, bool with_force) const override
+  void prime(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, bool with_force) const override
   {
     if (with_force)
-      pass<PassContent{.scatter = {.mass = true, .momentum = true, .force = true}}>(body, grid, 0,
+      pass<PassContent{.scatter = {.mass = true, .momentum = true, .force = true}}>(part, grid, 0,
                                                                                     nullptr);
     else
-      pass<PassContent{.scatter = {.mass = true, .momentum = true}}>(body, grid, 0, nullptr);
+      pass<PassContent{.scatter = {.mass = true, .momentum = true}}>(part, grid, 0, nullptr);
   }
 
-  void musl_velocity(Body<Dim>& body, NodeGrid<Dim>& grid) const override
+  void musl_velocity(const BodyPart<Dim>& part, NodeGrid<Dim>& grid) const override
   {
-    pass<PassContent{.velocity = true, .scatter = {.remap = true}}>(body, grid, 0, nullptr);
+    pass<PassContent{.velocity = true, .scatter = {.remap = true}}>(part, grid, 0, nullptr);
   }
 
-  MoveOutcome<Dim> musl_stress(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+  MoveOutcome<Dim> musl_stress(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
                                const MoveBounds<Dim>& bounds) const override
   {
     return pass<PassContent{.gradient = true,
                             .move = true,
                             .scatter = {.mass = true, .momentum = true, .force = true}}>(
-        body, grid, dt, &bounds);
+        part, grid, dt, &bounds);
   }
 
-  void usf_stress(Body<Dim>& body, NodeGrid<Dim>& grid, double dt) const override
+  void usf_stress(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt) const override
   {
-    pass<PassContent{.gradient = true, .scatter = {.force = true}}>(body, grid, dt, nullptr);
+    pass<PassContent{.gradient = true, .scatter = {.force = true}}>(part, grid, dt, nullptr);
   }
 
-  MoveOutcome<Dim> usf_velocity(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+  MoveOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
                                 const MoveBounds<Dim>& bounds) const override
   {
     return pass<PassContent{
-        .velocity = true, .move = true, .scatter = {.mass = true, .momentum = true}}>(body, grid,
+        .velocity = true, .move = true, .scatter = {.mass = true, .momentum = true}}>(part, grid,
                                                                                       dt, &bounds);
   }
 
-  MoveOutcome<Dim> usl(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+  MoveOutcome<Dim> usl(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
                        const MoveBounds<Dim>& bounds) const override
   {
     return pass<PassContent{.gradient = true,
                             .velocity = true,
                             .move = true,
                             .scatter = {.mass = true, .momentum = true, .force = true}}>(
-        body, grid, dt, &bounds);
+        part, grid, dt, &bounds);
   }
 
  private:
@@ -104,7 +104,7 @@ class KernelTransfer final : public Transfer<Dim> {
   }
 
   template <PassContent Content>
-  MoveOutcome<Dim> pass(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+  MoveOutcome<Dim> pass(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
                         const MoveBounds<Dim>* bounds) const
   {
     constexpr int stress_width = symmetric_components<Dim> * lane_count;
@@ -115,9 +115,9 @@ class KernelTransfer final : public Transfer<Dim> {
     MoveOutcome<Dim> outcome;
     Lanes largest_speed = 0.0;
     Scatter<Dim, Shape, Content.scatter> scatter(grid);
-    ParticleStore& particles = body.particles;
-    for (LocalIndex first = 0; first < particles.blocks(); first += chunk) {
-      const int blocks = std::min(chunk, int(particles.blocks() - first));
+    ParticleStore& particles = part.body.particles;
+    for (LocalIndex first = part.first; first < part.end; first += chunk) {
+      const int blocks = std::min(chunk, int(part.end - first));
       double* state = particles.state().block(first);
       if constexpr (Content.gradient) {
         for (int k = 0; k < blocks; ++k) {
@@ -126,9 +126,9 @@ class KernelTransfer final : public Transfer<Dim> {
           gather_gradient(Stencil<Dim, Shape>(x, grid, shape_), grid,
                           gradient + k * gradient_width);
         }
-        body.law->update(state, blocks, gradient, dt, force_stress);
+        part.body.law->update(state, blocks, gradient, dt, force_stress);
       } else if constexpr (Content.scatter.force) {
-        body.law->force_stress(state, blocks, force_stress);
+        part.body.law->force_stress(state, blocks, force_stress);
       }
       for (int k = 0; k < blocks; ++k)
         move_and_scatter<Content>(particles, first + k, grid, dt, bounds,

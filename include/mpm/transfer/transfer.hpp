@@ -36,6 +36,16 @@ struct MoveBounds {
   Vec<Dim> reach_lower, reach_upper;  ///< m, where stencils still lie on this rank's nodes
 };
 
+/// Blocks [first, end) of a body: a step may do those near other ranks before the rest.
+template <int Dim>
+struct BodyPart {
+  Body<Dim>& body;
+  LocalIndex first, end;
+
+  BodyPart(Body<Dim>& whole) : body(whole), first(0), end(whole.particles.blocks()) {}
+  BodyPart(Body<Dim>& of, LocalIndex from, LocalIndex to) : body(of), first(from), end(to) {}
+};
+
 /// Textbook names: P2G, G2P. Each pass is compiled for one dimension, shape function and scheme;
 /// materials enter through Law. "Old place" and "new place" are before and after the move.
 template <int Dim>
@@ -51,22 +61,22 @@ class Transfer {
                            std::vector<LocalIndex>& nodes) const = 0;
 
   /// P2G of mass, momentum and, where `with_force`, internal force. No state changes.
-  virtual void prime(Body<Dim>& body, NodeGrid<Dim>& grid, bool with_force) const = 0;
+  virtual void prime(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, bool with_force) const = 0;
 
   // MUSL, two passes.
   /// G2P of the velocity at the old place, and its momentum back to the same nodes.
-  virtual void musl_velocity(Body<Dim>& body, NodeGrid<Dim>& grid) const = 0;
+  virtual void musl_velocity(const BodyPart<Dim>& part, NodeGrid<Dim>& grid) const = 0;
   /// Velocity gradient at the old place, stress, move; P2G of mass, momentum, force at the new.
-  virtual MoveOutcome<Dim> musl_stress(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+  virtual MoveOutcome<Dim> musl_stress(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
                                        const MoveBounds<Dim>& bounds) const = 0;
   // USF, two passes.
   /// Velocity gradient, stress, P2G of the force.
-  virtual void usf_stress(Body<Dim>& body, NodeGrid<Dim>& grid, double dt) const = 0;
+  virtual void usf_stress(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt) const = 0;
   /// G2P of the velocity, move; P2G of mass and momentum at the new place.
-  virtual MoveOutcome<Dim> usf_velocity(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+  virtual MoveOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
                                         const MoveBounds<Dim>& bounds) const = 0;
   // USL, one pass.
-  virtual MoveOutcome<Dim> usl(Body<Dim>& body, NodeGrid<Dim>& grid, double dt,
+  virtual MoveOutcome<Dim> usl(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
                                const MoveBounds<Dim>& bounds) const = 0;
 };
 
