@@ -8,46 +8,83 @@ namespace mpm {
 
 namespace {
 
-/// Principal values and directions of a symmetric 2 x 2 tensor with positive eigenvalues.
-struct Spectrum {
-  Lanes first, second;  ///< eigenvalues, first >= second
-  Lanes cosine, sine;   ///< of twice the angle of the first direction
-
-  Spectrum(const Lanes& xx, const Lanes& yy, const Lanes& xy)
-  {
-    const Lanes mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy);
-    // The smallest normal number: the direction does not matter where the eigenvalues coincide.
-    const Lanes radius = stdx::sqrt(half * half + xy * xy) + 1e-300;
-    first = mean + radius;
-    second = (xx * yy - xy * xy) / first;
-    cosine = half / radius;
-    sine = xy / radius;
-  }
+/// In-plane logarithmic strain 1/2 ln b_e of a symmetric 2 x 2 tensor with positive eigenvalues
+/// l1 >= l2, without its eigenvectors: with the mean m of xx and yy, half their difference h and
+/// q = sqrt(h^2 + xy^2) / m,
+///   ln b_e = ln(l1 l2) / 2 I + atanh(q) / (q m) {{h, xy}, {xy, -h}}.
+struct PlaneStrain {
+  Lanes sum;                 ///< e1 + e2
+  Lanes difference_xx;       ///< e_xx - e_yy
+  Lanes difference_xy;       ///< 2 e_xy
+  Lanes difference_squared;  ///< (e1 - e2)^2
 };
 
-/// xx, yy, xy of the tensor with these principal values in the directions of the spectrum.
+/// Below this, ten terms of the series of atanh(q) / q in q^2 are exact to rounding.
+constexpr double series_limit = 0.029;
+
+[[gnu::always_inline]] inline Lanes atanh_over(const Lanes& q_squared, const Lanes& mean,
+                                               const Lanes& determinant)
+{
+  Lanes series = 1.0 / 21;
+  for (const int odd : {19, 17, 15, 13, 11, 9, 7, 5, 3, 1}) series = series * q_squared + 1.0 / odd;
+  const LaneMask large = q_squared > series_limit;
+  if (stdx::any_of(large)) [[unlikely]] {
+    const Lanes q = stdx::sqrt(q_squared), first = mean * (1.0 + q);
+    stdx::where(large, series) = 0.5 * lane_log(first * first / determinant) / q;
+  }
+  return series;
+}
+
+[[gnu::always_inline]] inline PlaneStrain logarithmic_strain(const Lanes& xx, const Lanes& yy,
+                                                             const Lanes& xy)
+{
+  const Lanes mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy);
+  const Lanes determinant = xx * yy - xy * xy, inverse_mean = 1.0 / mean;
+  const Lanes h = half * inverse_mean, s = xy * inverse_mean;
+  const Lanes q_squared = h * h + s * s;
+  const Lanes factor = atanh_over(q_squared, mean, determinant);
+  return {0.5 * lane_log(determinant), factor * h, factor * s, factor * factor * q_squared};
+}
+
+/// b_e = exp(2 e): exp(sum) (cosh(d) I + sinh(d) / d {{d_xx, d_xy}, {d_xy, -d_xx}}), d = e1 - e2.
 struct PlaneTensor {
   Lanes xx, yy, xy;
-  PlaneTensor(const Spectrum& s, const Lanes& first, const Lanes& second)
+
+  explicit PlaneTensor(const PlaneStrain& e)
   {
-    const Lanes mean = 0.5 * (first + second), half = 0.5 * (first - second);
-    xx = mean + half * s.cosine;
-    yy = mean - half * s.cosine;
-    xy = half * s.sine;
+    const Lanes d2 = e.difference_squared;
+    Lanes cosh = 1.0 / 87178291200.0, sinh_over = 1.0 / 1307674368000.0;
+    for (const double f :
+         {1.0 / 479001600.0, 1.0 / 3628800.0, 1.0 / 40320.0, 1.0 / 720.0, 1.0 / 24.0, 0.5, 1.0})
+      cosh = cosh * d2 + f;
+    for (const double f : {1.0 / 6227020800.0, 1.0 / 39916800.0, 1.0 / 362880.0, 1.0 / 5040.0,
+                           1.0 / 120.0, 1.0 / 6.0, 1.0})
+      sinh_over = sinh_over * d2 + f;
+    const LaneMask large = d2 > 0.5;  // beyond, the series lose digits
+    if (stdx::any_of(large)) [[unlikely]] {
+      const Lanes d = stdx::sqrt(d2), up = lane_exp(d), down = lane_exp(-d);
+      stdx::where(large, cosh) = 0.5 * (up + down);
+      stdx::where(large, sinh_over) = 0.5 * (up - down) / d;
+    }
+    const Lanes size = lane_exp(e.sum);
+    const Lanes half = size * sinh_over * e.difference_xx;
+    xx = size * cosh + half;
+    yy = size * cosh - half;
+    xy = size * sinh_over * e.difference_xy;
   }
 };
 
 template <PlaneAssumption Plane, bool Plastic>
 class Hencky final : public Law<2> {
   static constexpr bool plane_strain = Plane == PlaneAssumption::strain;
-  // b_e,zz differs from 1 only by plastic flow; in plane stress it follows from tau_zz = 0.
+  // e_zz differs from 0 only by plastic flow; in plane stress it follows from tau_zz = 0.
   static constexpr bool carries_zz = plane_strain && Plastic;
   enum : int {
     volume = 0,
     be_xx,
     be_yy,
     be_xy,
-    be_zz,
+    log_zz,
   };
   static constexpr int plastic_strain = carries_zz ? 5 : 4;
   static constexpr int plastic_work = plastic_strain + 1;
@@ -59,14 +96,15 @@ class Hencky final : public Law<2> {
         density_(density),
         yield_(yield),
         mu_(elastic.shear_modulus()),
-        bulk_(elastic.bulk_modulus())
+        bulk_(elastic.bulk_modulus()),
+        lambda_(bulk_ - 2.0 / 3.0 * mu_)
   {
   }
 
   std::vector<Column> state_columns() const override
   {
     std::vector<Column> list{{"initial_volume", 1, "m3"}, {"elastic_left_cauchy_green", 3, "1"}};
-    if (carries_zz) list.push_back({"elastic_left_cauchy_green_zz", 1, "1"});
+    if (carries_zz) list.push_back({"elastic_log_strain_zz", 1, "1"});
     if (Plastic) {
       list.push_back({"plastic_strain", 1, "1"});
       list.push_back({"plastic_work", 1, "J"});
@@ -77,7 +115,6 @@ class Hencky final : public Law<2> {
   void initialise(ColumnGroup& state, LocalIndex particle) const override
   {
     state(be_xx, particle) = state(be_yy, particle) = 1;
-    if (carries_zz) state(be_zz, particle) = 1;
   }
 
   void update(double* state, int blocks, const double* gradient, double dt,
@@ -97,7 +134,10 @@ class Hencky final : public Law<2> {
       store(xx, s + be_xx * lane_count);
       store(yy, s + be_yy * lane_count);
       store(xy, s + be_xy * lane_count);
-      stress_and_return(s, Spectrum(xx, yy, xy), force_stress + k * 3 * lane_count);
+      Strain e = complete(s, logarithmic_strain(xx, yy, xy));
+      if constexpr (Plastic && plane_strain) return_radially(s, e);
+      if constexpr (Plastic && !plane_strain) return_in_plane_stress(s, e);
+      put_force_stress(s, e, force_stress + k * 3 * lane_count);
     }
   }
 
@@ -105,26 +145,20 @@ class Hencky final : public Law<2> {
   {
     for (int k = 0; k < blocks; ++k) {
       const double* s = state + k * columns * lane_count;
-      const Spectrum spectrum(at(s, be_xx), at(s, be_yy), at(s, be_xy));
-      const Strain e = elastic_strain(s, spectrum);
-      const Lanes trace = e.first + e.second + e.zz;
-      put_force_stress(s, spectrum, principal_stress(e.first, trace),
-                       principal_stress(e.second, trace), force_stress + k * 3 * lane_count);
+      put_force_stress(s, elastic_strain(s), force_stress + k * 3 * lane_count);
     }
   }
 
   void cauchy_stress(const double* s, double* stress) const override
   {
-    const Spectrum spectrum(at(s, be_xx), at(s, be_yy), at(s, be_xy));
-    const Strain e = elastic_strain(s, spectrum);
-    const Lanes trace = e.first + e.second + e.zz;
+    const Strain e = elastic_strain(s);
+    const Lanes trace = e.trace();
     // Plastic flow keeps the volume: J = sqrt(det b_e) = exp(trace).
     const Lanes inverse_j = lane_exp(-trace);
-    const PlaneTensor tau(spectrum, principal_stress(e.first, trace),
-                          principal_stress(e.second, trace));
+    const Stress tau(*this, e);
     store(tau.xx * inverse_j, stress);
     store(tau.yy * inverse_j, stress + lane_count);
-    store(plane_strain ? principal_stress(e.zz, trace) * inverse_j : Lanes(0.0),
+    store(plane_strain ? (lambda_ * trace + 2 * mu_ * e.zz) * inverse_j : Lanes(0.0),
           stress + 2 * lane_count);
     store(tau.xy * inverse_j, stress + 3 * lane_count);
     store(Lanes(0.0), stress + 4 * lane_count);
@@ -133,10 +167,10 @@ class Hencky final : public Law<2> {
 
   Lanes elastic_energy(const double* s) const override
   {
-    const Strain e = elastic_strain(s, Spectrum(at(s, be_xx), at(s, be_yy), at(s, be_xy)));
-    const Lanes trace = e.first + e.second + e.zz, third = trace / 3.0;
-    const Lanes d1 = e.first - third, d2 = e.second - third, d3 = e.zz - third;
-    return at(s, volume) * (0.5 * bulk_ * trace * trace + mu_ * (d1 * d1 + d2 * d2 + d3 * d3));
+    const Strain e = elastic_strain(s);
+    const Lanes trace = e.trace(), d = e.mean_deviator();
+    return at(s, volume) *
+           (0.5 * bulk_ * trace * trace + mu_ * (6.0 * d * d + 0.5 * e.plane.difference_squared));
   }
 
   double wave_speed() const override
@@ -146,56 +180,61 @@ class Hencky final : public Law<2> {
 
  private:
   struct Strain {
-    Lanes first, second, zz;  ///< principal logarithmic elastic strains
+    PlaneStrain plane;
+    Lanes zz;
+
+    Lanes trace() const { return plane.sum + zz; }
+    /// Mean of the two in-plane principal deviators; the third is -2 times that.
+    Lanes mean_deviator() const { return 0.5 * plane.sum - trace() * (1.0 / 3.0); }
+  };
+
+  /// Kirchhoff stress tau, Pa.
+  struct Stress {
+    Lanes xx, yy, xy;
+    Stress(const Hencky& law, const Strain& e)
+    {
+      const Lanes both = law.lambda_ * e.trace() + law.mu_ * e.plane.sum;
+      const Lanes half = law.mu_ * e.plane.difference_xx;
+      xx = both + half;
+      yy = both - half;
+      xy = law.mu_ * e.plane.difference_xy;
+    }
   };
 
   static Lanes at(const double* s, int column) { return load(s + column * lane_count); }
 
-  Lanes principal_stress(const Lanes& strain, const Lanes& trace) const
+  Strain complete(const double* s, const PlaneStrain& plane) const
   {
-    return (bulk_ - 2.0 / 3.0 * mu_) * trace + 2 * mu_ * strain;
+    if constexpr (carries_zz)
+      return {plane, at(s, log_zz)};
+    else if constexpr (plane_strain)
+      return {plane, 0.0};
+    else
+      return {plane, zz_over_sum() * plane.sum};
   }
 
-  Strain elastic_strain(const double* s, const Spectrum& spectrum) const
+  Strain elastic_strain(const double* s) const
   {
-    Strain e{0.5 * lane_log(spectrum.first), 0.5 * lane_log(spectrum.second), 0.0};
-    if constexpr (!plane_strain)
-      e.zz = -elastic_.poisson_ratio / (1 - elastic_.poisson_ratio) * (e.first + e.second);
-    else if constexpr (carries_zz)
-      e.zz = 0.5 * lane_log(at(s, be_zz));
-    return e;
+    return complete(s, logarithmic_strain(at(s, be_xx), at(s, be_yy), at(s, be_xy)));
   }
 
-  static void put_force_stress(const double* s, const Spectrum& spectrum, const Lanes& first,
-                               const Lanes& second, double* out)
+  /// Plane stress: e_zz / (e1 + e2).
+  double zz_over_sum() const { return -elastic_.poisson_ratio / (1 - elastic_.poisson_ratio); }
+
+  void put_force_stress(const double* s, const Strain& e, double* out) const
   {
     const Lanes v0 = at(s, volume);
-    const PlaneTensor tau(spectrum, v0 * first, v0 * second);
-    store(tau.xx, out);
-    store(tau.yy, out + lane_count);
-    store(tau.xy, out + 2 * lane_count);
-  }
-
-  void stress_and_return(double* s, const Spectrum& spectrum, double* out) const
-  {
-    Strain e = elastic_strain(s, spectrum);
-    if constexpr (Plastic) {
-      if constexpr (plane_strain)
-        return_radially(s, spectrum, e);
-      else
-        return_in_plane_stress(s, spectrum, e);
-    }
-    const Lanes trace = e.first + e.second + e.zz;
-    put_force_stress(s, spectrum, principal_stress(e.first, trace),
-                     principal_stress(e.second, trace), out);
+    const Stress tau(*this, e);
+    store(v0 * tau.xx, out);
+    store(v0 * tau.yy, out + lane_count);
+    store(v0 * tau.xy, out + 2 * lane_count);
   }
 
   /// Radial return of the deviator of the logarithmic strain; the trace stays.
-  void return_radially(double* s, const Spectrum& spectrum, Strain& e) const
+  void return_radially(double* s, Strain& e) const
   {
-    const Lanes third = (e.first + e.second + e.zz) * (1.0 / 3.0);
-    const Lanes d1 = e.first - third, d2 = e.second - third, d3 = e.zz - third;
-    const Lanes squared = 1.5 * (d1 * d1 + d2 * d2 + d3 * d3);  // (q / 2 mu)^2
+    const Lanes d = e.mean_deviator();
+    const Lanes squared = 9.0 * d * d + 0.75 * e.plane.difference_squared;  // (q / 2 mu)^2
     const Lanes hardening = at(s, plastic_strain);
     const Lanes limit = (yield_.yield_stress + yield_.hardening_modulus * hardening) / (2 * mu_);
     const LaneMask yields = squared > limit * limit;
@@ -204,30 +243,32 @@ class Hencky final : public Law<2> {
     Lanes multiplier = 0.0, scale = 1.0;
     stdx::where(yields, multiplier) = 2 * mu_ * (q - limit) / (3 * mu_ + yield_.hardening_modulus);
     stdx::where(yields, scale) = 1.0 - 1.5 * multiplier / q;
-    e = {third + scale * d1, third + scale * d2, third + scale * d3};
+    const Lanes third = e.trace() * (1.0 / 3.0);
+    scale_strain(e, 2.0 * (third + scale * d), scale);
+    e.zz = third - 2.0 * scale * d;
     record_flow(s, multiplier);
-    const PlaneTensor be(spectrum, lane_exp(2.0 * e.first), lane_exp(2.0 * e.second));
-    put_where(yields, be, s);
-    store(select(yields, lane_exp(2.0 * e.zz), at(s, be_zz)), s + be_zz * lane_count);
+    put_where(yields, PlaneTensor(e.plane), s);
+    store(select(yields, e.zz, at(s, log_zz)), s + log_zz * lane_count);
   }
 
-  void return_in_plane_stress(double* s, const Spectrum& spectrum, Strain& e) const
+  void return_in_plane_stress(double* s, Strain& e) const
   {
-    const double nu = elastic_.poisson_ratio;
-    const double sum_modulus = elastic_.youngs_modulus / (1 - nu);
-    const Lanes sum = e.first + e.second, difference = e.first - e.second;
-    const Lanes stress_difference = 2 * mu_ * difference;
-    const PlaneStressReturn flow =
-        return_to_yield_plane_stress(sum_modulus * sum, stress_difference * stress_difference,
-                                     at(s, plastic_strain), elastic_, yield_);
+    const double sum_modulus = elastic_.youngs_modulus / (1 - elastic_.poisson_ratio);
+    const PlaneStressReturn flow = return_to_yield_plane_stress(
+        sum_modulus * e.plane.sum, 4 * mu_ * mu_ * e.plane.difference_squared,
+        at(s, plastic_strain), elastic_, yield_);
     if (!flow.any) return;
     // Elastic strains are proportional to the stresses in sum and difference.
-    const Lanes new_sum = flow.sum_scale * sum, new_difference = flow.difference_scale * difference;
-    e = {0.5 * (new_sum + new_difference), 0.5 * (new_sum - new_difference),
-         -nu / (1 - nu) * new_sum};
+    scale_strain(e, flow.sum_scale * e.plane.sum, flow.difference_scale);
+    e.zz = zz_over_sum() * e.plane.sum;
     record_flow(s, flow.plastic_strain);
-    put_where(flow.plastic_strain > 0.0,
-              PlaneTensor(spectrum, lane_exp(2.0 * e.first), lane_exp(2.0 * e.second)), s);
+    put_where(flow.plastic_strain > 0.0, PlaneTensor(e.plane), s);
+  }
+
+  static void scale_strain(Strain& e, const Lanes& sum, const Lanes& scale)
+  {
+    e.plane = {sum, scale * e.plane.difference_xx, scale * e.plane.difference_xy,
+               scale * scale * e.plane.difference_squared};
   }
 
   /// Lanes that do not flow keep their b_e to the last bit.
@@ -249,7 +290,7 @@ class Hencky final : public Law<2> {
   IsotropicConstants elastic_;
   double density_;
   YieldConstants yield_;
-  double mu_, bulk_;
+  double mu_, bulk_, lambda_;
 };
 
 template <PlaneAssumption Plane>

@@ -37,6 +37,14 @@ inline Lanes select(const LaneMask& condition, const Lanes& a, const Lanes& b)
   return result;
 }
 
+/// {a, a, b, b}
+inline Record<4> pairs(double a, double b)
+{
+  Record<4> result = a;
+  stdx::where(Record<4>([](auto k) { return k; }) > 1.5, result) = Record<4>(b);
+  return result;
+}
+
 /// Natural logarithm of positive finite lanes to 1 ulp or so: exponent split, then
 /// ln m = 2 atanh((m - 1) / (m + 1)) as an odd series, |argument| < 0.172.
 inline Lanes lane_log(const Lanes& value)

@@ -13,7 +13,8 @@ struct Gimp {
 
   double base_shift() const { return half_size; }
 
-  void weights(const Lanes& r, double inverse_h, Lanes (&w)[3], Lanes (&g)[3]) const
+  [[gnu::always_inline]] void weights(const Lanes& r, double gradient_scale, Lanes (&w)[3],
+                                      Lanes (&g)[3]) const
   {
     const Lanes t = stdx::max(r - (1.0 - half_size), Lanes(0.0));
     const Lanes e = t * (0.5 / half_size);
@@ -23,9 +24,9 @@ struct Gimp {
     w[0] = half_size * f * f + stdx::max((1.0 - half_size) - r, Lanes(0.0));
     w[1] = r - 2.0 * q;
     w[2] = q;
-    g[0] = -f * inverse_h;
-    g[1] = (1.0 - 2.0 * e) * inverse_h;
-    g[2] = e * inverse_h;
+    g[0] = -f * gradient_scale;
+    g[1] = (1.0 - 2.0 * e) * gradient_scale;
+    g[2] = e * gradient_scale;
   }
 };
 

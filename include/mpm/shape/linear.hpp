@@ -12,12 +12,13 @@ struct Linear {
   static constexpr int support = 2;
   static constexpr double base_shift() { return 0.0; }
 
-  static void weights(const Lanes& r, double inverse_h, Lanes (&w)[2], Lanes (&g)[2])
+  [[gnu::always_inline]] static void weights(const Lanes& r, double gradient_scale, Lanes (&w)[2],
+                                             Lanes (&g)[2])
   {
     w[0] = 1.0 - r;
     w[1] = r;
-    g[0] = -inverse_h;
-    g[1] = inverse_h;
+    g[0] = -gradient_scale;
+    g[1] = gradient_scale;
   }
 };
 

@@ -8,15 +8,16 @@ struct Quadratic {
   static constexpr int support = 3;
   static constexpr double base_shift() { return 0.5; }
 
-  static void weights(const Lanes& r, double inverse_h, Lanes (&w)[3], Lanes (&g)[3])
+  [[gnu::always_inline]] static void weights(const Lanes& r, double gradient_scale, Lanes (&w)[3],
+                                             Lanes (&g)[3])
   {
     const Lanes a = 1.5 - r, b = r - 1.0, c = r - 0.5;  // r lies in [1/2, 3/2)
     w[0] = 0.5 * a * a;
     w[1] = 0.75 - b * b;
     w[2] = 0.5 * c * c;
-    g[0] = -inverse_h * a;
-    g[1] = (-2.0 * inverse_h) * b;
-    g[2] = inverse_h * c;
+    g[0] = -gradient_scale * a;
+    g[1] = (-2.0 * gradient_scale) * b;
+    g[2] = gradient_scale * c;
   }
 };
 

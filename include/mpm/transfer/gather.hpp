@@ -7,12 +7,12 @@ namespace mpm {
 
 /// dv_i/dx_j at i + Dim * j, 1/s, of the grid's gradient velocity.
 template <int Dim, class Shape>
-inline void gather_gradient(const Stencil<Dim, Shape>& stencil, const NodeGrid<Dim>& grid,
-                            double* gradient)
+[[gnu::always_inline]] inline void gather_gradient(const Stencil<Dim, Shape>& stencil,
+                                                   const NodeGrid<Dim>& grid, double* gradient)
 {
   constexpr int n = Shape::support;
   constexpr int width = NodeGrid<Dim>::velocity_width;
-  const SpilledWeights<Dim, n> w(stencil.weight), g(stencil.gradient);
+  const auto &w = stencil.weight, &g = stencil.gradient;
   for (int lane = 0; lane < lane_count; ++lane) {
     const double* node = grid.gradient_velocity.data() + std::size_t(stencil.base[lane]) * width;
     if constexpr (Dim == 2) {
@@ -20,13 +20,12 @@ inline void gather_gradient(const Stencil<Dim, Shape>& stencil, const NodeGrid<D
       // the gradient in one register.
       const std::size_t row = std::size_t(grid.stride(1)) * width;
       Record<4> along_x[n], total = 0.0;
-      for (int a = 0; a < n; ++a)
-        along_x[a] = Record<4>([&](auto k) { return k < 2 ? g(0, a, lane) : w(0, a, lane); });
+      for (int a = 0; a < n; ++a) along_x[a] = pairs(g[0][a][lane], w[0][a][lane]);
       for (int b = 0; b < n; ++b) {
         Record<4> sum = 0.0;
         for (int a = 0; a < n; ++a)
           sum += Record<4>(node + b * row + a * width, stdx::element_aligned) * along_x[a];
-        total += sum * Record<4>([&](auto k) { return k < 2 ? w(1, b, lane) : g(1, b, lane); });
+        total += sum * pairs(w[1][b][lane], g[1][b][lane]);
       }
       for (int k = 0; k < 4; ++k) gradient[k * lane_count + lane] = total[k];
     } else {
@@ -40,16 +39,16 @@ inline void gather_gradient(const Stencil<Dim, Shape>& stencil, const NodeGrid<D
                 node +
                     (std::size_t(c) * grid.stride(2) + std::size_t(b) * grid.stride(1) + a) * width,
                 stdx::element_aligned);
-            row_gradient += v * g(0, a, lane);
-            row += v * w(0, a, lane);
+            row_gradient += v * g[0][a][lane];
+            row += v * w[0][a][lane];
           }
-          gx += row_gradient * w(1, b, lane);
-          gy += row * g(1, b, lane);
-          plain += row * w(1, b, lane);
+          gx += row_gradient * w[1][b][lane];
+          gy += row * g[1][b][lane];
+          plain += row * w[1][b][lane];
         }
-        column[0] += gx * w(2, c, lane);
-        column[1] += gy * w(2, c, lane);
-        column[2] += plain * g(2, c, lane);
+        column[0] += gx * w[2][c][lane];
+        column[1] += gy * w[2][c][lane];
+        column[2] += plain * g[2][c][lane];
       }
       for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 3; ++i) gradient[(i + 3 * j) * lane_count + lane] = column[j][i];
@@ -60,15 +59,16 @@ inline void gather_gradient(const Stencil<Dim, Shape>& stencil, const NodeGrid<D
 /// Sum w {v, dv} of the updated velocities; with `Affine` also C_ij = sum v_i c_j at i + Dim * j,
 /// c the affine weights.
 template <bool Affine, int Dim, class Shape>
-inline void gather_velocity(const Stencil<Dim, Shape>& stencil, const NodeGrid<Dim>& grid,
-                            const Lanes (&affine_weight)[Dim][Shape::support],
-                            Lanes (&velocity)[2 * Dim], Lanes (&affine)[Dim * Dim])
+[[gnu::always_inline]] inline void gather_velocity(
+    const Stencil<Dim, Shape>& stencil, const NodeGrid<Dim>& grid,
+    const typename Stencil<Dim, Shape>::Columns& affine_weight, Lanes (&velocity)[2 * Dim],
+    Lanes (&affine)[Dim * Dim])
 {
   constexpr int n = Shape::support;
   constexpr int width = NodeGrid<Dim>::record_width;
   using R = Record<width>;
-  const SpilledWeights<Dim, n> w(stencil.weight);
-  const SpilledWeights<Dim, n> c(affine_weight);
+  const auto& w = stencil.weight;
+  const auto& c = affine_weight;
   alignas(lane_alignment) double out[2 * Dim][lane_count];
   alignas(lane_alignment) double out_affine[Dim * Dim][lane_count];
   constexpr int layers = Dim == 3 ? n : 1;
@@ -84,21 +84,21 @@ inline void gather_velocity(const Stencil<Dim, Shape>& stencil, const NodeGrid<D
           std::size_t at = std::size_t(b) * grid.stride(1) + a;
           if constexpr (Dim == 3) at += std::size_t(k) * grid.stride(2);
           const R value(node + at * width, stdx::element_aligned);
-          row += value * w(0, a, lane);
-          if constexpr (Affine) row_x += value * c(0, a, lane);
+          row += value * w[0][a][lane];
+          if constexpr (Affine) row_x += value * c[0][a][lane];
         }
-        layer += row * w(1, b, lane);
+        layer += row * w[1][b][lane];
         if constexpr (Affine) {
-          layer_x += row_x * w(1, b, lane);
-          layer_y += row * c(1, b, lane);
+          layer_x += row_x * w[1][b][lane];
+          layer_y += row * c[1][b][lane];
         }
       }
       if constexpr (Dim == 3) {
-        total += layer * w(2, k, lane);
+        total += layer * w[2][k][lane];
         if constexpr (Affine) {
-          total_affine[0] += layer_x * w(2, k, lane);
-          total_affine[1] += layer_y * w(2, k, lane);
-          total_affine[2] += layer * c(2, k, lane);
+          total_affine[0] += layer_x * w[2][k][lane];
+          total_affine[1] += layer_y * w[2][k][lane];
+          total_affine[2] += layer * c[2][k][lane];
         }
       } else {
         total = layer;

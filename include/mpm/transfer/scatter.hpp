@@ -36,11 +36,11 @@ class Scatter {
   /// momentum [Dim], mass, force_stress [symmetric_components] (columns of lanes, V0 tau),
   /// affine [Dim * Dim] (m C_ij at i + Dim * j). Absent ones are ignored.
   template <bool Affine>
-  void add(const Stencil<Dim, Shape>& stencil, const Lanes& mass, const Lanes (&momentum)[Dim],
-           const double* force_stress, const Lanes (&affine)[Dim * Dim])
+  [[gnu::always_inline]] void add(const Stencil<Dim, Shape>& stencil, const Lanes& mass,
+                                  const Lanes (&momentum)[Dim], const double* force_stress,
+                                  const Lanes (&affine)[Dim * Dim])
   {
-    const SpilledWeights<Dim, n> w(stencil.weight), g(stencil.gradient);
-    const SpilledWeights<Dim, n> offset(Affine ? stencil.offset : stencil.weight);
+    const auto &w = stencil.weight, &g = stencil.gradient, &offset = stencil.offset;
     alignas(lane_alignment) double m[lane_count];
     alignas(lane_alignment) double mv[Dim][lane_count];
     alignas(lane_alignment) double mc[Dim * Dim][lane_count];
@@ -56,7 +56,7 @@ class Scatter {
         clear();
         base_ = base;
       }
-      // f = - V0 tau g: column j of tau times the gradient's component j.
+      // Column j of V0 tau times the gradient's component j.
       R plain = R([&](auto k) { return momentum_at(mv, k, lane); });
       R tau[Dim], along[Dim];
       for (int j = 0; j < Dim; ++j) {
@@ -66,30 +66,31 @@ class Scatter {
           along[j] = R([&](auto k) { return k < Dim ? mc[k + Dim * j][lane] : 0.0; });
       }
       const MassRow mass_row =
-          MassRow([&](auto k) { return k < n ? w(0, k, lane) : 0.0; }) * m[lane];
+          MassRow([&](auto k) { return k < n ? w[0][k][lane] : 0.0; }) * m[lane];
       for (int row = 0; row < rows; ++row) {
         const int b = row % n, c = row / n;
-        double w_row = w(1, b, lane);
-        if constexpr (Dim == 3) w_row *= w(2, c, lane);
+        double w_row = w[1][b][lane];
+        if constexpr (Dim == 3) w_row *= w[2][c][lane];
         if constexpr (Content.mass) mass_[row] += mass_row * w_row;
         R at_row = plain;  // without the force: times w along x
         if constexpr (Affine) {
-          at_row += along[1] * offset(1, b, lane);
-          if constexpr (Dim == 3) at_row += along[2] * offset(2, c, lane);
+          at_row += along[1] * offset[1][b][lane];
+          if constexpr (Dim == 3) at_row += along[2] * offset[2][c][lane];
         }
         at_row = at_row * w_row;
         if constexpr (Content.force) {
           if constexpr (Dim == 3)
             at_row +=
-                tau[1] * (g(1, b, lane) * w(2, c, lane)) + tau[2] * (w(1, b, lane) * g(2, c, lane));
+                tau[1] * (g[1][b][lane] * w[2][c][lane]) + tau[2] * (w[1][b][lane] * g[2][c][lane]);
           else
-            at_row += tau[1] * g(1, b, lane);
+            at_row += tau[1] * g[1][b][lane];
         }
         for (int a = 0; a < n; ++a) {
-          R value = at_row * w(0, a, lane);
-          if constexpr (Content.force) value += (tau[0] * w_row) * g(0, a, lane);
-          if constexpr (Affine) value += (along[0] * w_row) * (w(0, a, lane) * offset(0, a, lane));
-          sum_[row * n + a] += value;
+          // Term by term, so that each is one multiply-add.
+          R& sum = sum_[row * n + a];
+          sum += at_row * w[0][a][lane];
+          if constexpr (Content.force) sum += (tau[0] * w_row) * g[0][a][lane];
+          if constexpr (Affine) sum += (along[0] * w_row) * (w[0][a][lane] * offset[0][a][lane]);
         }
       }
     }
@@ -100,7 +101,7 @@ class Scatter {
   {
     return (Content.momentum || Content.remap) && k < Dim ? mv[k][lane] : 0.0;
   }
-  /// Component k of the record for column j of - V0 tau.
+  /// Component k of the record for column j of V0 tau.
   static double stress_at(const double* s, int k, int j, int lane)
   {
     const int i = k - Dim;
@@ -108,7 +109,7 @@ class Scatter {
     constexpr int voigt2[2][2] = {{0, 2}, {2, 1}};
     constexpr int voigt3[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     const int component = Dim == 2 ? voigt2[i % 2][j % 2] : voigt3[i][j];
-    return -s[component * lane_count + lane];
+    return s[component * lane_count + lane];
   }
 
   void clear()
