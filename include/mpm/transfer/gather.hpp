@@ -1,9 +1,21 @@
 #pragma once
 /// From the grid to one block of particles.
 
+#include <mpm/core/transpose.hpp>
 #include <mpm/transfer/stencil.hpp>
 
 namespace mpm {
+
+/// The first Count values of each lane's row of Width as lanes.
+template <int Width, int Count>
+[[gnu::always_inline]] inline void first_columns(const double* rows, Lanes (&values)[Count])
+{
+  for (int first = 0; first < Count; first += 4) {
+    Lanes columns[4];
+    to_columns(rows + first, Width, columns);
+    std::copy_n(columns, std::min(4, Count - first), values + first);
+  }
+}
 
 /// dv_i/dx_j at i + Dim * j, 1/s, of the grid's gradient velocity.
 template <int Dim, class Shape>
@@ -12,7 +24,9 @@ template <int Dim, class Shape>
 {
   constexpr int n = Shape::support;
   constexpr int width = NodeGrid<Dim>::velocity_width;
+  constexpr int row_width = Dim == 2 ? 4 : 12;
   const auto &w = stencil.weight, &g = stencil.gradient;
+  alignas(lane_alignment) double row_of[lane_count][row_width];
   for (int lane = 0; lane < lane_count; ++lane) {
     const double* node = grid.gradient_velocity.data() + std::size_t(stencil.base[lane]) * width;
     if constexpr (Dim == 2) {
@@ -27,7 +41,7 @@ template <int Dim, class Shape>
           sum += Record<4>(node + b * row + a * width, stdx::element_aligned) * along_x[a];
         total += sum * pairs(w[1][b][lane], g[1][b][lane]);
       }
-      for (int k = 0; k < 4; ++k) gradient[k * lane_count + lane] = total[k];
+      total.copy_to(row_of[lane], stdx::element_aligned);
     } else {
       Record<4> column[3] = {0.0, 0.0, 0.0};
       for (int c = 0; c < n; ++c) {
@@ -50,9 +64,14 @@ template <int Dim, class Shape>
         column[1] += gy * w[2][c][lane];
         column[2] += plain * g[2][c][lane];
       }
-      for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i) gradient[(i + 3 * j) * lane_count + lane] = column[j][i];
+      for (int j = 0; j < 3; ++j) column[j].copy_to(&row_of[lane][4 * j], stdx::element_aligned);
     }
+  }
+  constexpr int together = Dim == 2 ? 4 : 3;  // values in a group of four
+  for (int k = 0; k < Dim * Dim; k += together) {
+    Lanes columns[together];
+    first_columns<row_width>(row_of[0] + k / together * 4, columns);
+    for (int i = 0; i < together; ++i) store(columns[i], gradient + (k + i) * lane_count);
   }
 }
 
@@ -69,8 +88,8 @@ template <bool Affine, int Dim, class Shape>
   using R = Record<width>;
   const auto& w = stencil.weight;
   const auto& c = affine_weight;
-  alignas(lane_alignment) double out[2 * Dim][lane_count];
-  alignas(lane_alignment) double out_affine[Dim * Dim][lane_count];
+  alignas(lane_alignment) double out[lane_count][width];
+  alignas(lane_alignment) double out_affine[Dim][lane_count][width];
   constexpr int layers = Dim == 3 ? n : 1;
   for (int lane = 0; lane < lane_count; ++lane) {
     const double* node = grid.updated.data() + std::size_t(stencil.base[lane]) * width;
@@ -106,14 +125,18 @@ template <bool Affine, int Dim, class Shape>
         total_affine[1] = layer_y;
       }
     }
-    for (int k = 0; k < 2 * Dim; ++k) out[k][lane] = total[k];
+    total.copy_to(out[lane], stdx::element_aligned);
     if constexpr (Affine)
       for (int j = 0; j < Dim; ++j)
-        for (int i = 0; i < Dim; ++i) out_affine[i + Dim * j][lane] = total_affine[j][i];
+        total_affine[j].copy_to(out_affine[j][lane], stdx::element_aligned);
   }
-  for (int k = 0; k < 2 * Dim; ++k) velocity[k] = load(out[k]);
+  first_columns<width>(out[0], velocity);
   if constexpr (Affine)
-    for (int k = 0; k < Dim * Dim; ++k) affine[k] = load(out_affine[k]);
+    for (int j = 0; j < Dim; ++j) {
+      Lanes column[Dim];
+      first_columns<width>(out_affine[j][0], column);
+      std::copy_n(column, Dim, &affine[Dim * j]);
+    }
 }
 
 }  // namespace mpm
