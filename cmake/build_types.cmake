@@ -1,5 +1,5 @@
-# Build types: Release (default; this machine's vector units, or baseline x86-64 with MPM_PORTABLE),
-# Developer (warnings as errors, assertions), Debug.
+# Build types: Release (default), Developer (warnings as errors, assertions), Debug.
+# Vector width: MPM_VECTOR.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -11,18 +11,35 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 set_property(CACHE CMAKE_BUILD_TYPE PROPERTY STRINGS Release Developer Debug)
 
-option(MPM_PORTABLE "Build for baseline x86-64 instead of this machine's vector units" OFF)
+set(MPM_VECTOR native CACHE STRING
+    "Vector unit: native (this machine's), or of any x86-64: baseline, avx2, avx512 (2, 4, 8 doubles)")
+set_property(CACHE MPM_VECTOR PROPERTY STRINGS native baseline avx2 avx512)
 
-add_library(mpm_flags INTERFACE)
+# The compiler's name for a vector unit; x86-64-v3 and -v4 are the sets of instructions that come
+# with AVX2 and with AVX-512.
+function(mpm_vector_flags vector result)
+  set(native -march=native)
+  set(baseline -march=x86-64)
+  set(avx2 -march=x86-64-v3)
+  set(avx512 -march=x86-64-v4)
+  if(NOT vector MATCHES "^(native|baseline|avx2|avx512)$")
+    message(FATAL_ERROR "MPM_VECTOR is '${vector}': give native, baseline, avx2 or avx512")
+  endif()
+  set(${result} ${${vector}} PARENT_SCOPE)
+endfunction()
+mpm_vector_flags("${MPM_VECTOR}" MPM_VECTOR_FLAGS)
+
+# mpm_common_flags is for code of any width, mpm_flags for this build's.
+add_library(mpm_common_flags INTERFACE)
 # GCC 12 calls the undefined operands in its own AVX-512 headers uninitialised, and the concatenation
 # of its own strings overlapping: none of these warnings.
 # errno and floating-point traps are never looked at; NaN and infinity keep their meaning.
-target_compile_options(mpm_flags INTERFACE -Wall -Wextra -Wno-psabi -Wno-uninitialized
-                                           -Wno-maybe-uninitialized -Wno-restrict -fno-math-errno
-                                           -fno-trapping-math)
-if(NOT MPM_PORTABLE)
-  target_compile_options(mpm_flags INTERFACE -march=native)
-endif()
+target_compile_options(mpm_common_flags INTERFACE
+                       -Wall -Wextra -Wno-psabi -Wno-uninitialized -Wno-maybe-uninitialized
+                       -Wno-restrict -fno-math-errno -fno-trapping-math)
+add_library(mpm_flags INTERFACE)
+target_compile_options(mpm_flags INTERFACE ${MPM_VECTOR_FLAGS})
+target_link_libraries(mpm_flags INTERFACE mpm_common_flags)
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 set(CMAKE_CXX_FLAGS_DEVELOPER "-O2 -g -Werror")
 set(CMAKE_C_FLAGS_DEVELOPER "-O2 -g")

@@ -1,0 +1,235 @@
+#include <mpm/core/lanes.hpp>
+#include <mpm/materials/hypoelastic_solid.hpp>
+
+#include <cmath>
+
+namespace mpm {
+
+namespace {
+
+/// Row by row.
+struct Tensor {
+  Lanes a[3][3];
+
+  static Tensor identity() { return {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}}; }
+  Lanes cofactor(int i, int j) const
+  {
+    const int r = (i + 1) % 3, s = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+    return a[r][c] * a[s][d] - a[r][d] * a[s][c];
+  }
+  Lanes determinant() const
+  {
+    return a[0][0] * cofactor(0, 0) + a[0][1] * cofactor(0, 1) + a[0][2] * cofactor(0, 2);
+  }
+  Tensor inverse() const
+  {
+    const Lanes scale = 1.0 / determinant();
+    Tensor result;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) result.a[i][j] = cofactor(j, i) * scale;
+    return result;
+  }
+};
+
+Tensor operator*(const Tensor& x, const Tensor& y)
+{
+  Tensor result;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      result.a[i][j] = x.a[i][0] * y.a[0][j] + x.a[i][1] * y.a[1][j] + x.a[i][2] * y.a[2][j];
+  return result;
+}
+
+/// Rotation of a step with midpoint gradient G: (I - W/2)^-1 (I + W/2), W the skew part of G. With
+/// the axial vector b of W/2 this is I + 2 (B + B B) / (1 + b.b), B = W/2; |b| = tan(angle / 2).
+Tensor rotation_of(const Tensor& g)
+{
+  const Lanes b[3] = {0.25 * (g.a[2][1] - g.a[1][2]), 0.25 * (g.a[0][2] - g.a[2][0]),
+                      0.25 * (g.a[1][0] - g.a[0][1])};
+  const Lanes squared = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+  const Lanes scale = 2.0 / (1.0 + squared);
+  Tensor q;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    q.a[i][i] = 1.0 + scale * (b[i] * b[i] - squared);
+    q.a[i][j] = scale * (b[i] * b[j] - b[k]);
+    q.a[j][i] = scale * (b[i] * b[j] + b[k]);
+  }
+  return q;
+}
+
+/// xx, yy, zz, xy, yz, xz.
+struct Symmetric {
+  Lanes xx, yy, zz, xy, yz, xz;
+
+  Lanes mean() const { return (xx + yy + zz) / 3.0; }
+  Lanes squared() const  ///< A : A
+  {
+    return xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + xz * xz);
+  }
+  Symmetric deviator() const
+  {
+    const Lanes p = mean();
+    return {xx - p, yy - p, zz - p, xy, yz, xz};
+  }
+  friend Symmetric operator+(const Symmetric& a, const Symmetric& b)
+  {
+    return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.yz + b.yz, a.xz + b.xz};
+  }
+  /// Q A Q^T
+  Symmetric turned(const Tensor& q) const
+  {
+    const Tensor m = q * Tensor{{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
+    const auto at = [&](int i, int j) {
+      return m.a[i][0] * q.a[j][0] + m.a[i][1] * q.a[j][1] + m.a[i][2] * q.a[j][2];
+    };
+    return {at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)};
+  }
+};
+
+template <bool Plastic>
+class HypoelasticSolid final : public Law<3> {
+  enum : int { volume = 0, volume_ratio, tau, plastic_strain = tau + 6, plastic_work };
+  static constexpr int columns = Plastic ? plastic_work + 1 : plastic_strain;
+
+ public:
+  HypoelasticSolid(const IsotropicConstants& elastic, const YieldConstants& yield, double density)
+      : elastic_(elastic), yield_(yield), density_(density)
+  {
+  }
+
+  std::vector<Column> state_columns() const override
+  {
+    std::vector<Column> list{
+        {"initial_volume", 1, "m3"}, {"volume_ratio", 1, "1"}, {"kirchhoff_stress", 6, "Pa"}};
+    if (Plastic) {
+      list.push_back({"plastic_strain", 1, "1"});
+      list.push_back({"plastic_work", 1, "J"});
+    }
+    return list;
+  }
+
+  void initialise(ColumnGroup& state, LocalIndex particle) const override
+  {
+    state(volume_ratio, particle) = 1;
+  }
+
+  void update(double* state, int blocks, const double* gradient, double dt,
+              double* force_stress) const override
+  {
+    for (int k = 0; k < blocks; ++k)
+      update_block(state + k * columns * lane_count, gradient + k * 9 * lane_count, dt,
+                   force_stress + k * 6 * lane_count);
+  }
+
+  void force_stress(const double* state, int blocks, double* force_stress) const override
+  {
+    for (int k = 0; k < blocks; ++k) {
+      const double* s = state + k * columns * lane_count;
+      put(stress(s), at(s, volume), force_stress + k * 6 * lane_count);
+    }
+  }
+
+  void cauchy_stress(const double* s, double* out) const override
+  {
+    put(stress(s), 1.0 / at(s, volume_ratio), out);
+  }
+
+  Lanes elastic_energy(const double* s) const override
+  {
+    const Symmetric t = stress(s);
+    const Lanes p = t.mean();
+    return at(s, volume) * (p * p / (2 * elastic_.bulk_modulus()) +
+                            t.deviator().squared() / (4 * elastic_.shear_modulus()));
+  }
+
+  double wave_speed() const override { return std::sqrt(elastic_.wave_modulus() / density_); }
+
+ private:
+  static Lanes at(const double* s, int column) { return load(s + column * lane_count); }
+  static Symmetric stress(const double* s)
+  {
+    return {at(s, tau),     at(s, tau + 1), at(s, tau + 2),
+            at(s, tau + 3), at(s, tau + 4), at(s, tau + 5)};
+  }
+  static void put(const Symmetric& t, const Lanes& factor, double* out)
+  {
+    store(factor * t.xx, out);
+    store(factor * t.yy, out + lane_count);
+    store(factor * t.zz, out + 2 * lane_count);
+    store(factor * t.xy, out + 3 * lane_count);
+    store(factor * t.yz, out + 4 * lane_count);
+    store(factor * t.xz, out + 5 * lane_count);
+  }
+
+  void update_block(double* s, const double* l, double dt, double* out) const
+  {
+    // dt L, and the midpoint gradient G = dt L (I + dt L / 2)^-1.
+    Tensor a, middle = Tensor::identity(), whole = Tensor::identity();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        a.a[i][j] = dt * load(l + (i + 3 * j) * lane_count);
+        middle.a[i][j] += 0.5 * a.a[i][j];
+        whole.a[i][j] += a.a[i][j];
+      }
+    const Tensor g = a * middle.inverse();
+    store(at(s, volume_ratio) * whole.determinant(), s + volume_ratio * lane_count);
+
+    // The increment belongs to the axes of the midpoint: half of it turns with the old stress, half
+    // does not, which is right to second order and costs no second rotation.
+    const Symmetric half = half_increment(g);
+    Symmetric t = (stress(s) + half).turned(rotation_of(g)) + half;
+    if constexpr (Plastic) return_radially(s, t);
+    put(t, 1.0, s + tau * lane_count);
+    put(t, at(s, volume), out);
+  }
+
+  /// C : sym(G) / 2
+  Symmetric half_increment(const Tensor& g) const
+  {
+    const double mu = elastic_.shear_modulus(), lambda = elastic_.bulk_modulus() - 2.0 / 3.0 * mu;
+    const Lanes dilation = 0.5 * lambda * (g.a[0][0] + g.a[1][1] + g.a[2][2]);
+    return {dilation + mu * g.a[0][0],          dilation + mu * g.a[1][1],
+            dilation + mu * g.a[2][2],          0.5 * mu * (g.a[0][1] + g.a[1][0]),
+            0.5 * mu * (g.a[1][2] + g.a[2][1]), 0.5 * mu * (g.a[0][2] + g.a[2][0])};
+  }
+
+  /// Radial return (Wilkins 1964; Simo & Hughes 1998, box 3.1).
+  void return_radially(double* s, Symmetric& t) const
+  {
+    const Symmetric dev = t.deviator();
+    const Lanes squared = 1.5 * dev.squared();
+    const Lanes old_strain = at(s, plastic_strain);
+    const Lanes limit = yield_.yield_stress + yield_.hardening_modulus * old_strain;
+    const LaneMask yields = squared > limit * limit;
+    if (!stdx::any_of(yields)) return;
+    const Lanes q = stdx::sqrt(squared);
+    const double three_mu = 3 * elastic_.shear_modulus();
+    Lanes multiplier = 0.0, scale = 1.0;
+    stdx::where(yields, multiplier) = (q - limit) / (three_mu + yield_.hardening_modulus);
+    stdx::where(yields, scale) = 1.0 - three_mu * multiplier / q;
+    const Lanes p = t.mean();
+    t = {p + scale * dev.xx, p + scale * dev.yy, p + scale * dev.zz,
+         scale * dev.xy,     scale * dev.yz,     scale * dev.xz};
+    const Lanes strain = old_strain + multiplier;
+    store(strain, s + plastic_strain * lane_count);
+    const Lanes flow_stress = yield_.yield_stress + yield_.hardening_modulus * strain;
+    store(at(s, plastic_work) + at(s, volume) * flow_stress * multiplier,
+          s + plastic_work * lane_count);
+  }
+
+  IsotropicConstants elastic_;
+  YieldConstants yield_;
+  double density_;
+};
+
+}  // namespace
+
+std::unique_ptr<Law<3>> make_hypoelastic_solid(const IsotropicConstants& elastic, double density,
+                                               std::optional<YieldConstants> yield)
+{
+  if (yield) return std::make_unique<HypoelasticSolid<true>>(elastic, *yield, density);
+  return std::make_unique<HypoelasticSolid<false>>(elastic, YieldConstants{0}, density);
+}
+
+}  // namespace mpm
