@@ -32,7 +32,8 @@ void read_and_run(const scene::CommandLine& command_line)
     specimen = micrograph::build_specimen(scene);
     layout = make_layout(scene, specimen);
   });
-  const Decomposition<2> decomposition = make_decomposition(MPI_COMM_WORLD, scene, layout);
+  const Decomposition<2> decomposition =
+      make_decomposition(MPI_COMM_WORLD, scene, specimen, layout);
   print_once(plan_text(scene, specimen, layout, decomposition));
   if (command_line.check) return;
   run_scene(scene, specimen, layout, decomposition, scene::results_folder(command_line, scene));

@@ -48,13 +48,9 @@ template <int Dim>
 void RigidBody<Dim>::constrain_updated(NodeGrid<Dim>& grid, double time, double dt)
 {
   mark_nodes(grid, time + dt);
-  for (const LocalIndex node : nodes_) {
-    IndexVec<Dim> at;
+  for (const LocalIndex node : nodes_)
     for (int d = 0; d < Dim; ++d)
-      at[d] = grid.local().lower[d] + node / grid.stride(d) % grid.local().count()[d];
-    for (int d = 0; d < Dim; ++d)
-      this->constrain(grid, node, grid.owned().contains(at), d, velocity_[d], velocity_[d]);
-  }
+      this->constrain(grid, node, grid.is_owned(node), d, velocity_[d], velocity_[d]);
 }
 
 template <int Dim>

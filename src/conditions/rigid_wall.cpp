@@ -62,14 +62,9 @@ void RigidWall<Dim>::for_each_node(const NodeGrid<Dim>& grid, double time, Visit
     if (!row) continue;
     const LocalIndex from = std::max(run.start[0], behind.lower[0]);
     const LocalIndex to = std::min(run.start[0] + run.length, behind.upper[0]);
-    bool owned_row = true;
-    for (int d = 1; d < Dim; ++d)
-      owned_row = owned_row && run.start[d] >= grid.owned().lower[d] &&
-                  run.start[d] < grid.owned().upper[d];
     for (LocalIndex i = from; i < to; ++i) {
       const LocalIndex node = run.first + i - run.start[0];
-      if (grid.is_active(node))
-        visit(node, owned_row && i >= grid.owned().lower[0] && i < grid.owned().upper[0]);
+      if (grid.is_active(node)) visit(node, grid.is_owned(node));
     }
   }
 }

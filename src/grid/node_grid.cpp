@@ -1,9 +1,22 @@
+#include <mpm/core/error.hpp>
 #include <mpm/grid/node_grid.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace mpm {
+
+namespace {
+
+template <int Dim>
+std::vector<char> marks_of(const IndexBox<Dim>& local, const IndexBox<Dim>& part)
+{
+  std::vector<char> marks;
+  for_each_index(local, [&](const IndexVec<Dim>& node) { marks.push_back(part.contains(node)); });
+  return marks;
+}
+
+}  // namespace
 
 template <int Dim>
 IndexVec<Dim> GridGeometry<Dim>::cell_of(const Vec<Dim>& position) const
@@ -16,8 +29,8 @@ IndexVec<Dim> GridGeometry<Dim>::cell_of(const Vec<Dim>& position) const
 
 template <int Dim>
 NodeGrid<Dim>::NodeGrid(const GridGeometry<Dim>& geometry, const IndexBox<Dim>& local,
-                        const IndexBox<Dim>& owned, double mass_cut)
-    : geometry_(geometry), local_(local), owned_(owned), mass_cut_(mass_cut)
+                        std::vector<char> owned, double mass_cut)
+    : geometry_(geometry), local_(local), mass_cut_(mass_cut), owned_(std::move(owned))
 {
   const IndexVec<Dim> count = local.count();
   LocalIndex stride = 1;
@@ -34,6 +47,14 @@ NodeGrid<Dim>::NodeGrid(const GridGeometry<Dim>& geometry, const IndexBox<Dim>& 
   gradient_velocity.assign(std::size_t(size_) * velocity_width, 0.0);
   touched_.assign(size_, 0);
   kept_.assign(size_, 0);
+  MPM_ASSERT(LocalIndex(owned_.size()) == size_);
+}
+
+template <int Dim>
+NodeGrid<Dim>::NodeGrid(const GridGeometry<Dim>& geometry, const IndexBox<Dim>& local,
+                        const IndexBox<Dim>& owned, double mass_cut)
+    : NodeGrid(geometry, local, marks_of(local, owned), mass_cut)
+{
 }
 
 template <int Dim>
@@ -55,26 +76,11 @@ void NodeGrid<Dim>::reset_remap()
 }
 
 template <int Dim>
-void NodeGrid<Dim>::grow(std::vector<char>& marked, LocalIndex below, LocalIndex above) const
-{
-  const IndexVec<Dim> count = local_.count();
-  for (int d = 0; d < Dim; ++d) {
-    const std::vector<char> source = marked;
-    for (LocalIndex node = 0; node < size_; ++node) {
-      if (!source[node]) continue;
-      const LocalIndex at = node / stride_[d] % count[d];
-      const LocalIndex from = std::max(at - below, 0), to = std::min(at + above, count[d] - 1);
-      for (LocalIndex k = from; k <= to; ++k) marked[node + (k - at) * stride_[d]] = 1;
-    }
-  }
-}
-
-template <int Dim>
 void NodeGrid<Dim>::keep_active(const std::vector<LocalIndex>& shared_nodes)
 {
   kept_.assign(size_, 0);
   for (const LocalIndex node : shared_nodes) kept_[node] = 1;
-  grow(kept_, 1, 1);
+  grow<Dim>(kept_, local_.count(), 1, 1);
 }
 
 template <int Dim>
@@ -83,7 +89,7 @@ void NodeGrid<Dim>::end_activity(int support)
   const IndexVec<Dim> count = local_.count();
   // A particle's stencil may move by one node either way before the next call.
   std::vector<char> grown = touched_;
-  grow(grown, 1, support);
+  grow<Dim>(grown, count, 1, support);
   for (LocalIndex node = 0; node < size_; ++node) grown[node] |= kept_[node];
   // What is no longer reached must hold zeros, as nodes outside the runs are never cleared.
   for (const NodeRun<Dim>& run : runs_)
@@ -181,7 +187,7 @@ std::size_t NodeGrid<Dim>::bytes() const
   return (mass.size() + momentum_force.size() + updated.size() + remapped_momentum.size() +
           gradient_velocity.size()) *
              sizeof(double) +
-         touched_.size() + kept_.size();
+         owned_.size() + touched_.size() + kept_.size();
 }
 
 template struct GridGeometry<2>;

@@ -50,6 +50,26 @@ std::vector<int> metis_ranks(BlockGraph& graph, std::vector<idx_t> work, int ran
   return {part.begin(), part.end()};
 }
 
+/// A part without a block gets the lightest one of a rank that has several.
+void leave_nobody_empty(std::vector<int>& rank_of_block, const std::vector<LocalIndex>& work,
+                        int ranks)
+{
+  std::vector<int> blocks(ranks, 0);
+  for (const int rank : rank_of_block) ++blocks[rank];
+  if (std::ranges::find(blocks, 0) == blocks.end()) return;
+  std::vector<LocalIndex> by_work(work.size());
+  std::iota(by_work.begin(), by_work.end(), 0);
+  std::ranges::stable_sort(by_work, {}, [&](LocalIndex block) { return work[block]; });
+  auto next = by_work.begin();
+  for (int rank = 0; rank < ranks; ++rank) {
+    if (blocks[rank] > 0) continue;
+    while (blocks[rank_of_block[*next]] < 2) ++next;
+    --blocks[rank_of_block[*next]];
+    rank_of_block[*next++] = rank;
+    ++blocks[rank];
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -64,6 +84,7 @@ BlockPartition partition_blocks(const BlockWork<Dim>& blocks, int ranks)
   if (ranks == 1) return partition;
   BlockGraph graph = face_neighbours<Dim>(blocks.blocks);
   partition.rank = metis_ranks(graph, {blocks.work.begin(), blocks.work.end()}, ranks);
+  leave_nobody_empty(partition.rank, blocks.work, ranks);
 
   std::vector<double> load(ranks, 0.0);
   for (LocalIndex block = 0; block < count; ++block)

@@ -1,195 +1,169 @@
+#include <mpm/core/error.hpp>
 #include <mpm/parallel/halo.hpp>
 
 #include <algorithm>
-
-#include "petsc_check.hpp"
-#include <petscsf.h>
+#include <cstring>
 
 namespace mpm {
 
-/// The PetscSF, buffers and one MPI type per number of values.
-template <int Dim>
-class Halo<Dim>::Exchange {
- public:
-  static constexpr int most_values = 1 + 2 * Dim;
-
-  Exchange(MPI_Comm comm, std::size_t shared, std::vector<PetscSFNode> sources)
-      : own(shared * most_values), received(sources.size() * most_values)
-  {
-    petsc_check(PetscSFCreate(comm, &graph_));
-    petsc_check(PetscSFSetGraph(graph_, PetscInt(shared), PetscInt(sources.size()), nullptr,
-                                PETSC_COPY_VALUES, sources.data(), PETSC_COPY_VALUES));
-    petsc_check(PetscSFSetUp(graph_));
-    for (int values = 1; values <= most_values; ++values) {
-      MPI_Type_contiguous(values, MPI_DOUBLE, &types_[values]);
-      MPI_Type_commit(&types_[values]);
-    }
-  }
-  ~Exchange()
-  {
-    for (int values = 1; values <= most_values; ++values) MPI_Type_free(&types_[values]);
-    PetscSFDestroy(&graph_);
-  }
-  void run(int values)
-  {
-    petsc_check(
-        PetscSFBcastBegin(graph_, types_[values], own.data(), received.data(), MPI_REPLACE));
-    petsc_check(PetscSFBcastEnd(graph_, types_[values], own.data(), received.data(), MPI_REPLACE));
-  }
-
-  std::vector<double> own, received;
-
- private:
-  PetscSF graph_;
-  MPI_Datatype types_[most_values + 1];
-};
-
 namespace {
 
-/// Global numbers of the nodes that `rank` shares with any other rank, ascending by local number.
-template <int Dim>
-std::vector<LocalIndex> shared_nodes_of(const Decomposition<Dim>& decomposition, int support,
-                                        int rank)
-{
-  const IndexBox<Dim> mine = decomposition.local(rank, support);
-  std::vector<LocalIndex> nodes;
-  for (int other = 0; other < decomposition.ranks(); ++other) {
-    if (other == rank) continue;
-    const IndexBox<Dim> both = intersection(mine, decomposition.local(other, support));
-    if (both.empty()) continue;
-    const IndexVec<Dim> count = both.count(), width = mine.count();
-    for (GlobalIndex k = 0; k < both.size(); ++k) {
-      GlobalIndex rest = k;
-      LocalIndex node = 0, stride = 1;
-      for (int d = 0; d < Dim; ++d) {
-        node += stride * LocalIndex(rest % count[d] + both.lower[d] - mine.lower[d]);
-        rest /= count[d];
-        stride *= width[d];
-      }
-      nodes.push_back(node);
-    }
+constexpr int halo_tag = 711;
+
+/// Where the values of a sum lie: one mass per node or none, and `width` numbers of a record.
+struct Values {
+  double* mass;
+  double* records;
+  std::size_t stride;
+  int width;
+
+  int count() const { return width + (mass ? 1 : 0); }
+  void read(LocalIndex node, double* to) const
+  {
+    if (mass) *to++ = mass[node];
+    std::copy_n(records + std::size_t(node) * stride, width, to);
   }
-  std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
-}
+  void write(LocalIndex node, const double* from) const
+  {
+    if (mass) mass[node] = *from++;
+    std::copy_n(from, width, records + std::size_t(node) * stride);
+  }
+};
 
 template <int Dim>
-LocalIndex local_number(const IndexBox<Dim>& box, const IndexVec<Dim>& node)
+Values values_in(NodeGrid<Dim>& grid, NodeSum sum)
 {
-  LocalIndex number = 0, stride = 1;
-  for (int d = 0; d < Dim; ++d) {
-    number += stride * (node[d] - box.lower[d]);
-    stride *= box.count()[d];
+  constexpr std::size_t record = NodeGrid<Dim>::record_width;
+  double* momentum = grid.momentum_force.data();
+  switch (sum) {
+    case NodeSum::mass_momentum_force:
+      return {grid.mass.data(), momentum, record, 2 * Dim};
+    case NodeSum::mass_momentum:
+      return {grid.mass.data(), momentum, record, Dim};
+    case NodeSum::force:
+      return {nullptr, momentum + Dim, record, Dim};
+    case NodeSum::remapped_momentum:
+      break;
   }
-  return number;
-}
-
-LocalIndex position_in(const std::vector<LocalIndex>& sorted, LocalIndex value)
-{
-  return LocalIndex(std::ranges::lower_bound(sorted, value) - sorted.begin());
+  return {nullptr, grid.remapped_momentum.data(), NodeGrid<Dim>::remap_width, Dim};
 }
 
 }  // namespace
 
 template <int Dim>
-Halo<Dim>::Halo(const Decomposition<Dim>& decomposition, int support)
-    : rank_(decomposition.rank()),
-      shared_(shared_nodes_of(decomposition, support, decomposition.rank()))
+int values_of(NodeSum sum)
 {
-  const IndexBox<Dim> mine = decomposition.local(rank_, support);
-  std::vector<PetscSFNode> sources;
-  for (int other = 0; other < decomposition.ranks(); ++other) {
-    if (other == rank_) continue;
-    const IndexBox<Dim> theirs = decomposition.local(other, support);
-    const IndexBox<Dim> both = intersection(mine, theirs);
-    if (both.empty()) continue;
-    const std::vector<LocalIndex> their_shared = shared_nodes_of(decomposition, support, other);
-    Sharer sharer{other, {}, sources.size()};
-    for (GlobalIndex k = 0; k < both.size(); ++k) {
-      GlobalIndex rest = k;
-      IndexVec<Dim> node;
-      for (int d = 0; d < Dim; ++d) {
-        node[d] = both.lower[d] + LocalIndex(rest % both.count()[d]);
-        rest /= both.count()[d];
-      }
-      sharer.positions.push_back(position_in(shared_, local_number(mine, node)));
-      sources.push_back({other, position_in(their_shared, local_number(theirs, node))});
-    }
-    sharers_.push_back(std::move(sharer));
+  switch (sum) {
+    case NodeSum::mass_momentum_force:
+      return 1 + 2 * Dim;
+    case NodeSum::mass_momentum:
+      return 1 + Dim;
+    case NodeSum::force:
+    case NodeSum::remapped_momentum:
+      break;
   }
-  received_ = sources.size();
-  exchange_ = std::make_unique<Exchange>(decomposition.comm(), shared_.size(), sources);
+  return Dim;
 }
 
 template <int Dim>
-Halo<Dim>::~Halo() = default;
+Halo<Dim>::Halo(const Decomposition<Dim>& decomposition, int support)
+    : comm_(decomposition.comm()),
+      rank_(decomposition.rank()),
+      shared_(find_shared_nodes(decomposition.ownership(), support, rank_)),
+      sent_(shared_.sharers.size()),
+      received_(shared_.sharers.size()),
+      requests_(2 * shared_.sharers.size(), MPI_REQUEST_NULL),
+      notes_(shared_.sharers.size(), 0)
+{
+}
 
 template <int Dim>
-template <class Count, class Place>
-void Halo<Dim>::sum(Count, Place place)
+std::vector<int> Halo<Dim>::neighbours() const
 {
-  constexpr int values = Count::value;
-  if (sharers_.empty()) return;
-  for (std::size_t k = 0; k < shared_.size(); ++k)
-    for (int v = 0; v < values; ++v) exchange_->own[k * values + v] = *place(shared_[k], v);
-  exchange_->run(values);
-  for (const LocalIndex node : shared_)
-    for (int v = 0; v < values; ++v) *place(node, v) = 0;
+  std::vector<int> ranks;
+  for (const SharedNodes::Sharer& sharer : shared_.sharers) ranks.push_back(sharer.rank);
+  return ranks;
+}
+
+template <int Dim>
+void Halo<Dim>::begin(NodeSum sum, NodeGrid<Dim>& grid, std::span<const LocalIndex> notes)
+{
+  sum_ = sum;
+  const Values values = values_in(grid, sum);
+  const std::size_t width = std::size_t(values.count());
+  own_.resize(shared_.nodes.size() * width);
+  for (std::size_t k = 0; k < shared_.nodes.size(); ++k)
+    values.read(shared_.nodes[k], &own_[k * width]);
+  for (std::size_t s = 0; s < shared_.sharers.size(); ++s) {
+    const SharedNodes::Sharer& sharer = shared_.sharers[s];
+    const std::size_t size = sharer.positions.size() * width + 1;
+    received_[s].resize(size);
+    MPI_Irecv(received_[s].data(), int(size), MPI_DOUBLE, sharer.rank, halo_tag, comm_,
+              &requests_[2 * s]);
+    sent_[s].resize(size);
+    double* to = sent_[s].data();
+    for (const LocalIndex position : sharer.positions)
+      to = std::copy_n(&own_[std::size_t(position) * width], width, to);
+    *to = notes.empty() ? 0 : notes[s];
+    MPI_Isend(sent_[s].data(), int(size), MPI_DOUBLE, sharer.rank, halo_tag, comm_,
+              &requests_[2 * s + 1]);
+    ++traffic_.messages;
+    traffic_.bytes += GlobalIndex(size * sizeof(double));
+  }
+}
+
+template <int Dim>
+void Halo<Dim>::advance()
+{
+  if (requests_.empty()) return;
+  int done = 0;
+  MPI_Testall(int(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE);
+}
+
+template <int Dim>
+void Halo<Dim>::end(NodeGrid<Dim>& grid)
+{
+  if (requests_.empty()) return;
+  const double start = MPI_Wtime();
+  MPI_Waitall(int(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+  traffic_.waiting_seconds += MPI_Wtime() - start;
+
+  const Values values = values_in(grid, sum_);
+  const std::size_t width = std::size_t(values.count());
+  total_.assign(own_.size(), 0.0);
   const auto add_own = [&] {
-    for (std::size_t k = 0; k < shared_.size(); ++k)
-      for (int v = 0; v < values; ++v) *place(shared_[k], v) += exchange_->own[k * values + v];
+    for (std::size_t k = 0; k < own_.size(); ++k) total_[k] += own_[k];
   };
   bool own_added = false;
-  for (const Sharer& sharer : sharers_) {
+  for (std::size_t s = 0; s < shared_.sharers.size(); ++s) {
+    const SharedNodes::Sharer& sharer = shared_.sharers[s];
     if (!own_added && sharer.rank > rank_) add_own(), own_added = true;
-    const double* from = exchange_->received.data() + sharer.first * values;
+    const double* from = received_[s].data();
     for (const LocalIndex position : sharer.positions)
-      for (int v = 0; v < values; ++v) *place(shared_[position], v) += *from++;
+      for (std::size_t v = 0; v < width; ++v) total_[std::size_t(position) * width + v] += *from++;
+    notes_[s] = LocalIndex(*from);
   }
   if (!own_added) add_own();
+  for (std::size_t k = 0; k < shared_.nodes.size(); ++k)
+    values.write(shared_.nodes[k], &total_[k * width]);
 }
 
 template <int Dim>
-void Halo<Dim>::sum_mass_momentum_force(NodeGrid<Dim>& grid)
+bool Halo<Dim>::untouched(NodeGrid<Dim>& grid) const
 {
-  sum(std::integral_constant<int, 1 + 2 * Dim>{}, [&](LocalIndex node, int v) {
-    return v == 0 ? &grid.mass[node]
-                  : &grid.momentum_force[std::size_t(node) * grid.record_width + v - 1];
-  });
+  const Values values = values_in(grid, sum_);
+  const std::size_t width = std::size_t(values.count());
+  std::vector<double> now(width);
+  for (std::size_t k = 0; k < shared_.nodes.size(); ++k) {
+    values.read(shared_.nodes[k], now.data());
+    // By bits: a NaN that has stayed is untouched too.
+    if (std::memcmp(now.data(), &own_[k * width], width * sizeof(double)) != 0) return false;
+  }
+  return true;
 }
 
-template <int Dim>
-void Halo<Dim>::sum_mass_momentum(NodeGrid<Dim>& grid)
-{
-  sum(std::integral_constant<int, 1 + Dim>{}, [&](LocalIndex node, int v) {
-    return v == 0 ? &grid.mass[node]
-                  : &grid.momentum_force[std::size_t(node) * grid.record_width + v - 1];
-  });
-}
-
-template <int Dim>
-void Halo<Dim>::sum_force(NodeGrid<Dim>& grid)
-{
-  sum(std::integral_constant<int, Dim>{}, [&](LocalIndex node, int v) {
-    return &grid.momentum_force[std::size_t(node) * grid.record_width + Dim + v];
-  });
-}
-
-template <int Dim>
-void Halo<Dim>::sum_remapped_momentum(NodeGrid<Dim>& grid)
-{
-  sum(std::integral_constant<int, Dim>{}, [&](LocalIndex node, int v) {
-    return &grid.remapped_momentum[std::size_t(node) * grid.remap_width + v];
-  });
-}
-
-template <int Dim>
-typename Halo<Dim>::Traffic Halo<Dim>::traffic() const
-{
-  return {int(sharers_.size()), GlobalIndex(shared_.size()), GlobalIndex(received_)};
-}
-
+template int values_of<2>(NodeSum);
+template int values_of<3>(NodeSum);
 template class Halo<2>;
 template class Halo<3>;
 

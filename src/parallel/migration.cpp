@@ -2,110 +2,131 @@
 #include <mpm/parallel/migration.hpp>
 
 #include <algorithm>
-#include <map>
 
 namespace mpm {
 
 namespace {
 
-constexpr int first_tag = 731;
-
-/// Packed particles, body after body; each body's part begins with its number of doubles.
-using Packet = std::vector<double>;
+constexpr int migration_tag = 731;
 
 }  // namespace
 
 template <int Dim>
-typename Migration<Dim>::Outcome Migration<Dim>::exchange(std::span<const Leavers> leavers,
-                                                          bool failed)
+Migration<Dim>::Migration(const Decomposition<Dim>& decomposition, int support,
+                          std::vector<int> neighbours)
+    : comm_(decomposition.comm()),
+      geometry_(decomposition.geometry()),
+      local_(decomposition.local(decomposition.rank(), support)),
+      neighbours_(std::move(neighbours)),
+      packets_(neighbours_.size()),
+      buffers_(neighbours_.size()),
+      notes_(neighbours_.size(), 0)
+{
+  std::vector<char> near = owned_nodes(decomposition, support);
+  const std::vector<char> own = near;
+  grow<Dim>(near, local_.count(), 1, 1);
+  target_.assign(near.size(), beyond);
+  std::size_t number = 0;
+  for_each_index(local_, [&](const IndexVec<Dim>& cell) {
+    int& target = target_[number];
+    if (own[number]) {
+      target = home;
+    } else if (near[number]) {
+      const auto at = std::ranges::find(neighbours_, decomposition.owner_of_cell(cell));
+      MPM_ASSERT(at != neighbours_.end());
+      target = int(at - neighbours_.begin());
+    }
+    ++number;
+  });
+}
+
+template <int Dim>
+std::optional<LocalIndex> Migration<Dim>::collect(const BodyPart<Dim>& part, std::size_t body)
+{
+  std::optional<LocalIndex> strayed;
+  if (gone_.size() <= body) gone_.resize(body + 1);
+  const ParticleStore& particles = part.body.particles;
+  const LocalIndex end = std::min(part.end * lane_count, particles.size());
+  for (LocalIndex p = part.first * lane_count; p < end; ++p) {
+    Vec<Dim> position;
+    for (int d = 0; d < Dim; ++d) position[d] = particles.motion()(d, p);
+    const IndexVec<Dim> cell = geometry_.cell_of(position);
+    const int target = local_.contains(cell) ? target_[number_in(local_, cell)] : beyond;
+    if (target == home) continue;
+    if (target == beyond) {
+      strayed = p;
+      continue;
+    }
+    Packet& packet = packets_[target];
+    if (packet.size() <= body) packet.resize(body + 1);
+    particles.pack(p, packet[body]);
+    gone_[body].push_back(p);
+  }
+  return strayed;
+}
+
+template <int Dim>
+void Migration<Dim>::send()
+{
+  for (std::size_t n = 0; n < neighbours_.size(); ++n) {
+    std::vector<double>& buffer = buffers_[n];
+    buffer.clear();
+    for (std::size_t body = 0; body < packets_[n].size(); ++body) {
+      std::vector<double>& particles = packets_[n][body];
+      if (particles.empty()) continue;
+      buffer.push_back(double(body));
+      buffer.push_back(double(particles.size()));
+      buffer.insert(buffer.end(), particles.begin(), particles.end());
+      particles.clear();
+    }
+    notes_[n] = LocalIndex(buffer.size());
+    if (buffer.empty()) continue;
+    MPI_Isend(buffer.data(), int(buffer.size()), MPI_DOUBLE, neighbours_[n], migration_tag, comm_,
+              &sends_.emplace_back());
+    ++messages_;
+    bytes_ += GlobalIndex(buffer.size() * sizeof(double));
+  }
+}
+
+template <int Dim>
+typename Migration<Dim>::Outcome Migration<Dim>::finish(std::vector<Body<Dim>>& bodies,
+                                                        std::span<const LocalIndex> expected)
 {
   Outcome outcome;
-  outcome.arrived.assign(leavers.size(), 0);
-  round_ = 1 - round_;
-  const int tag = first_tag + round_;
-  const MPI_Comm comm = decomposition_.comm();
-  const IndexBox<Dim> home = decomposition_.owned(decomposition_.rank());
-
-  // Destination -> one part per body.
-  std::map<int, std::vector<Packet>> parts;
-  for (std::size_t b = 0; b < leavers.size(); ++b) {
-    ParticleStore& particles = leavers[b].body->particles;
-    std::vector<LocalIndex> gone;
-    for (const LocalIndex block : leavers[b].blocks) {
-      const LocalIndex end = std::min((block + 1) * lane_count, particles.size());
-      for (LocalIndex p = block * lane_count; p < end; ++p) {
-        Vec<Dim> position;
-        for (int d = 0; d < Dim; ++d) position[d] = particles.motion()(d, p);
-        const IndexVec<Dim> cell = decomposition_.geometry().cell_of(position);
-        if (home.contains(cell)) continue;
-        const int owner = decomposition_.owner_of_cell(cell);
-        if (owner == decomposition_.rank()) continue;
-        auto& destination = parts[owner];
-        destination.resize(leavers.size());
-        particles.pack(p, destination[b]);
-        gone.push_back(p);
-      }
-    }
-    if (gone.empty()) continue;
-    outcome.sent += GlobalIndex(gone.size());
-    particles.erase(gone);
-    particles.seal();
+  gone_.resize(bodies.size());
+  bool changed = false;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    std::ranges::sort(gone_[b]);
+    bodies[b].particles.erase(gone_[b]);
+    changed = changed || !gone_[b].empty();
+    outcome.sent += GlobalIndex(gone_[b].size());
+    outcome.stayed.push_back(bodies[b].particles.size());
+    gone_[b].clear();
   }
-
-  std::vector<Packet> packets;
-  std::vector<MPI_Request> sends;
-  packets.reserve(parts.size());
-  for (const auto& [owner, bodies] : parts) {
-    Packet& packet = packets.emplace_back();
-    for (const Packet& body : bodies) {
-      packet.push_back(double(body.size()));
-      packet.insert(packet.end(), body.begin(), body.end());
-    }
-    MPI_Issend(packet.data(), int(packet.size()), MPI_DOUBLE, owner, tag, comm,
-               &sends.emplace_back());
+  std::vector<double> buffer;
+  for (std::size_t n = 0; n < neighbours_.size(); ++n) {
+    if (expected[n] == 0) continue;
+    buffer.resize(std::size_t(expected[n]));
+    MPI_Recv(buffer.data(), expected[n], MPI_DOUBLE, neighbours_[n], migration_tag, comm_,
+             MPI_STATUS_IGNORE);
+    unpack(bodies, buffer);
+    changed = true;
   }
-
-  std::map<int, Packet> received;
-  int any_failed = failed;
-  MPI_Request consensus = MPI_REQUEST_NULL;
-  bool own_sends_arrived = false;
-  for (int finished = 0; !finished;) {
-    int waiting = 0;
-    MPI_Status status;
-    MPI_Iprobe(MPI_ANY_SOURCE, tag, comm, &waiting, &status);
-    if (waiting) {
-      int count = 0;
-      MPI_Get_count(&status, MPI_DOUBLE, &count);
-      Packet& packet = received[status.MPI_SOURCE];
-      packet.resize(count);
-      MPI_Recv(packet.data(), count, MPI_DOUBLE, status.MPI_SOURCE, tag, comm, MPI_STATUS_IGNORE);
-    }
-    if (!own_sends_arrived) {
-      int all_sent = 0;
-      MPI_Testall(int(sends.size()), sends.data(), &all_sent, MPI_STATUSES_IGNORE);
-      if (all_sent) {
-        own_sends_arrived = true;
-        MPI_Iallreduce(MPI_IN_PLACE, &any_failed, 1, MPI_INT, MPI_MAX, comm, &consensus);
-      }
-    } else {
-      MPI_Test(&consensus, &finished, MPI_STATUS_IGNORE);
-    }
-  }
-  outcome.failed = any_failed != 0;
-
-  for (const auto& [source, packet] : received) {
-    const double* at = packet.data();
-    for (std::size_t b = 0; b < leavers.size(); ++b) {
-      ParticleStore& particles = leavers[b].body->particles;
-      const std::size_t count = std::size_t(*at++);
-      particles.unpack({at, count});
-      at += count;
-      outcome.arrived[b] += LocalIndex(count / particles.packed_size());
-    }
-  }
-  for (std::size_t b = 0; b < leavers.size(); ++b)
-    if (outcome.arrived[b] > 0) leavers[b].body->particles.seal();
+  if (changed)
+    for (Body<Dim>& body : bodies) body.particles.seal();
+  MPI_Waitall(int(sends_.size()), sends_.data(), MPI_STATUSES_IGNORE);
+  sends_.clear();
   return outcome;
+}
+
+template <int Dim>
+void Migration<Dim>::unpack(std::vector<Body<Dim>>& bodies, const std::vector<double>& buffer) const
+{
+  for (std::size_t at = 0; at < buffer.size();) {
+    const std::size_t body = std::size_t(buffer[at]), count = std::size_t(buffer[at + 1]);
+    bodies[body].particles.unpack({&buffer[at + 2], count});
+    at += 2 + count;
+  }
 }
 
 template class Migration<2>;

@@ -68,8 +68,13 @@ void sum_over_ranks(MPI_Comm comm, std::span<GlobalIndex> values)
 
 double largest_over_ranks(MPI_Comm comm, double value)
 {
-  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, comm);
+  largest_over_ranks(comm, std::span(&value, 1));
   return value;
+}
+
+void largest_over_ranks(MPI_Comm comm, std::span<double> values)
+{
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE, MPI_MAX, comm);
 }
 
 void agree(MPI_Comm comm, const std::function<void()>& action)

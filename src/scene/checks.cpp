@@ -70,6 +70,9 @@ void check_run(const Checked& checked)
                      "Use scheme: flip, or shape_function: gimp or quadratic");
   }
 
+  if (numerics.decomposition == DecompositionKind::metis && checked.given("numerics.ranks"))
+    checked.refuse("numerics.ranks", "METIS makes no process grid", "Use decomposition: cuts");
+
   const std::string strains = "output.snapshots.strains";
   const std::string times = "output.snapshots.times";
   const SnapshotKeys& snapshots = scene.output_keys.snapshots;

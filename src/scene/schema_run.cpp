@@ -44,8 +44,12 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 {.bound = {End{0, false}, End{2, true}},
                  .default_text = "by shape function and update order"},
                 "time step times fastest wave over cell size"),
+      member<N>("decomposition", &N::decomposition, {},
+                "straight cuts, blocks of cells mapped by METIS, or what is better balanced"),
       member<N>("ranks", &N::ranks, {.bound = at_least(0), .default_text = "chosen"},
-                "process grid along x and y; 0: chosen"),
+                "process grid of cuts along x and y; 0: chosen"),
+      member<N>("repartition_interval", &N::repartition_interval, {.bound = at_least(0)},
+                "move the borders between ranks every so many steps (for tests); 0: when it pays"),
   };
   return rows;
 }

@@ -98,7 +98,6 @@ Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
     layout.specimen_lower[d] = 0;
     layout.geometry.origin[d] = -before[d] * layout.geometry.spacing[d];
     layout.geometry.nodes[d] = before[d] + specimen.cells[d] + after[d] + 1;
-    layout.layer_weights[d].assign(layout.geometry.nodes[d], 0.0);
   }
 
   layout.particle_volume =
@@ -113,8 +112,6 @@ Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
       if (material == Lattice::empty) continue;
       used[material] = 1;
       if (scene.materials[material].law == scene::Law::rigid) continue;
-      layout.layer_weights[0][before[0] + i / per_cell] += 1;
-      layout.layer_weights[1][before[1] + j / per_cell] += 1;
       layout.largest_speed =
           std::max(layout.largest_speed,
                    fastest(initial_velocity(scene, specimen.lattice, std::size_t(j) * nx + i)));

@@ -1,4 +1,5 @@
 #include <mpm/core/error.hpp>
+#include <mpm/parallel/session.hpp>
 #include <mpm/simulation/model.hpp>
 
 #include "placement.hpp"
@@ -55,13 +56,46 @@ std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int 
   return make_transfer<2>(shape(), scheme(), particles_per_cell);
 }
 
-Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene, const Layout& layout)
+PartitionRules<2> partition_rules(const scene::Scene& scene)
 {
-  std::optional<int> keep_whole;
+  PartitionRules<2> rules;
+  switch (scene.numerics.decomposition) {
+    case scene::DecompositionKind::automatic:
+      rules.kind = PartitionKind::automatic;
+      break;
+    case scene::DecompositionKind::cuts:
+      rules.kind = PartitionKind::cuts;
+      break;
+    case scene::DecompositionKind::metis:
+      rules.kind = PartitionKind::metis;
+      break;
+  }
+  rules.ranks = {scene.numerics.ranks[0], scene.numerics.ranks[1]};
   if (const auto* loading = std::get_if<scene::Loading>(&scene.motion))
-    keep_whole = axis_of(loading->piston);
-  return {comm, layout.geometry, IndexVec<2>(scene.numerics.ranks[0], scene.numerics.ranks[1]),
-          layout.layer_weights, keep_whole};
+    rules.keep_whole = axis_of(loading->piston);
+  return rules;
+}
+
+Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene,
+                                    const micrograph::SpecimenModel& specimen, const Layout& layout)
+{
+  // Each rank counts its share of the locations.
+  const RowShare share{rank_of(comm), ranks_of(comm)};
+  WorkMap<2> work(layout.geometry, ranks_of(comm));
+  for_each_particle_cell(scene, specimen, layout, share,
+                         [&](const IndexVec<2>& cell) { work.add(cell); });
+  work.sum_over_ranks(comm);
+  const auto loads_under = [&](const Ownership<2>& ownership) {
+    std::vector<double> loads(ownership.ranks(), 0.0);
+    for_each_particle_cell(scene, specimen, layout, share, [&](const IndexVec<2>& cell) {
+      loads[ownership.owner_of_cell(cell)] += 1;
+    });
+    sum_over_ranks(comm, loads);
+    return loads;
+  };
+  return {comm, choose_partition<2>(layout.geometry, ranks_of(comm), partition_rules(scene), work,
+                                    loads_under, nullptr)
+                    .ownership};
 }
 
 }  // namespace mpm

@@ -26,20 +26,26 @@ class BodyFiller {
  public:
   BodyFiller(Body<2>& body, const Layout& layout, const Decomposition<2>& decomposition,
              int per_cell)
-      : body_(body),
-        layout_(layout),
-        home_(decomposition.owned(decomposition.rank())),
-        per_cell_(per_cell)
+      : body_(body), layout_(layout), decomposition_(decomposition), per_cell_(per_cell)
   {
+  }
+
+  /// The part of a box of locations outside of which this rank has no cells.
+  IndexBox<2> nearby(const IndexBox<2>& locations) const
+  {
+    IndexBox<2> near = decomposition_.owned(decomposition_.rank());
+    for (int d = 0; d < 2; ++d) {
+      near.lower[d] = (near.lower[d] - layout_.padding[d]) * per_cell_;
+      near.upper[d] = (near.upper[d] - layout_.padding[d]) * per_cell_;
+    }
+    return intersection(locations, near);
   }
 
   void add(int i, int j, GlobalIndex id, const std::array<double, 2>& velocity)
   {
-    const auto cell = [&](int location, int d) {
-      const int c = location >= 0 ? location / per_cell_ : (location + 1) / per_cell_ - 1;
-      return layout_.padding[d] + c;
-    };
-    if (!home_.contains(IndexVec<2>(cell(i, 0), cell(j, 1)))) return;
+    const IndexVec<2> cell(cell_of_location(layout_, per_cell_, i, 0),
+                           cell_of_location(layout_, per_cell_, j, 1));
+    if (decomposition_.owner_of_cell(cell) != decomposition_.rank()) return;
     ParticleStore& particles = body_.particles;
     const LocalIndex p = particles.add(id);
     ColumnGroup& motion = particles.motion();
@@ -56,7 +62,7 @@ class BodyFiller {
  private:
   Body<2>& body_;
   const Layout& layout_;
-  IndexBox<2> home_;
+  const Decomposition<2>& decomposition_;
   int per_cell_;
 };
 
@@ -151,8 +157,9 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
     }
     Body<2>& body = model.bodies.emplace_back(empty_body(material, int(k), scene, *model.transfer));
     BodyFiller filler(body, layout, decomposition, per_cell);
-    for (int j = 0; j < lattice.ny; ++j)
-      for (int i = 0; i < lattice.nx; ++i)
+    const IndexBox<2> near = filler.nearby({{0, 0}, {lattice.nx, lattice.ny}});
+    for (int j = near.lower[1]; j < near.upper[1]; ++j)
+      for (int i = near.lower[0]; i < near.upper[0]; ++i)
         if (lattice(i, j) == std::int8_t(k)) {
           const std::size_t location = std::size_t(j) * lattice.nx + i;
           filler.add(i, j, GlobalIndex(location), initial_velocity(scene, lattice, location));
@@ -164,10 +171,10 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
     Body<2>& body = model.bodies.emplace_back(
         empty_body(material, int(scene.materials.size()), scene, *model.transfer));
     BodyFiller filler(body, layout, decomposition, per_cell);
-    GlobalIndex id = specimen.locations();
     const IndexBox<2>& box = layout.load_cell->locations;
-    for (int j = box.lower[1]; j < box.upper[1]; ++j)
-      for (int i = box.lower[0]; i < box.upper[0]; ++i) filler.add(i, j, id++, {0, 0});
+    for_each_index(filler.nearby(box), [&](const IndexVec<2>& at) {
+      filler.add(at[0], at[1], specimen.locations() + number_in(box, at), {0, 0});
+    });
     body.particles.seal();
   }
 

@@ -1,17 +1,14 @@
-#include <mpm/parallel/block_partition.hpp>
 #include <mpm/simulation/run.hpp>
 
 #include <algorithm>
 #include <cmath>
 
+#include "placement.hpp"
 #include <fmt/format.h>
 
 namespace mpm {
 
 namespace {
-
-/// Cells along the edge of a block that goes to a rank as a whole.
-constexpr LocalIndex block_edge = 4;
 
 /// Nanoseconds per particle and step on one core of a 2.6 GHz server processor of 2023 with 512-bit
 /// vectors: the order of magnitude of a run time, measured with the shipped block scenes.
@@ -49,36 +46,23 @@ std::string duration(double seconds)
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-/// Process grid and balance at the start, beside what a mapping of blocks of cells would reach.
-std::string ranks_text(const micrograph::SpecimenModel& specimen, const Layout& layout,
-                       const Decomposition<2>& decomposition)
+/// Shape of the partition and its balance at the start.
+std::string ranks_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+                       const Layout& layout, const Ownership<2>& ownership)
 {
-  const int ranks = decomposition.ranks();
-  std::string text =
-      fmt::format("{} x {}", decomposition.ranks_per_axis()[0], decomposition.ranks_per_axis()[1]);
-  if (ranks == 1) return text;
-  BlockWork<2> blocks{IndexVec<2>((specimen.cells[0] + block_edge - 1) / block_edge,
-                                  (specimen.cells[1] + block_edge - 1) / block_edge),
-                      block_edge,
-                      {}};
-  blocks.work.assign(blocks.blocks.prod(), 0);
-  std::vector<double> load(ranks, 0.0);
-  double all = 0;
-  for (int j = 0; j < specimen.lattice.ny; ++j)
-    for (int i = 0; i < specimen.lattice.nx; ++i) {
-      if (specimen.lattice(i, j) == micrograph::Lattice::empty) continue;
-      const IndexVec<2> cell(i / specimen.particles_per_cell, j / specimen.particles_per_cell);
-      ++blocks.work[cell[0] / block_edge + blocks.blocks[0] * (cell[1] / block_edge)];
-      load[decomposition.owner_of_cell(cell + IndexVec<2>(layout.padding[0], layout.padding[1]))] +=
-          1;
-      all += 1;
-    }
-  text +=
-      fmt::format("; busiest {:.3f} of the mean", *std::ranges::max_element(load) * ranks / all);
-  if (ranks <= blocks.blocks.prod())
-    text += fmt::format(", {:.3f} if METIS mapped blocks of {} x {} cells",
-                        partition_blocks(blocks, ranks).imbalance, block_edge, block_edge);
-  return text;
+  if (ownership.ranks() == 1) return "1";
+  std::vector<double> loads(ownership.ranks(), 0.0);
+  for_each_particle_cell(scene, specimen, layout, {}, [&](const IndexVec<2>& cell) {
+    loads[ownership.owner_of_cell(cell)] += 1;
+  });
+  const IndexVec<2> grid = ownership.ranks_per_axis();
+  return fmt::format(
+      "{}; busiest {:.3f} of the mean",
+      ownership.by_cuts()
+          ? fmt::format("{} x {}", grid[0], grid[1])
+          : fmt::format("{}, blocks of {} x {} cells mapped by METIS", ownership.ranks(),
+                        ownership.block_edge(), ownership.block_edge()),
+      imbalance_of(loads));
 }
 
 std::vector<std::string> left_out(const scene::Scene& scene)
@@ -113,8 +97,7 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
 {
   const int ranks = decomposition.ranks();
   double particles = 0;
-  for (const double layer : layout.layer_weights[0]) particles += layer;
-  if (layout.load_cell) particles += double(layout.load_cell->locations.size());
+  for_each_particle_cell(scene, specimen, layout, {}, [&](const IndexVec<2>&) { particles += 1; });
   const double dt = first_time_step(layout);
   double steps = std::ceil(layout.end_time / dt);
   if (scene.steps) steps = std::min(steps, double(*scene.steps));
@@ -166,7 +149,7 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
   line("left out", absent.empty() ? "nothing" : absent);
   line("time step", fmt::format("{:.4g} s (CFL {:.3g})", dt, layout.cfl));
   line("steps", fmt::format("{:.0f} to t = {:.4g} s", steps, steps * dt));
-  line("ranks", ranks_text(specimen, layout, decomposition));
+  line("ranks", ranks_text(scene, specimen, layout, decomposition.ownership()));
   line("memory", fmt::format("{:.0f} B per particle, {:.0f} B per node, {} in all",
                              bytes_per_particle, bytes_per_node,
                              memory(bytes_per_particle * particles + bytes_per_node * nodes)));

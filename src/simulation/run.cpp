@@ -4,12 +4,14 @@
 #include <mpm/output/summary.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/scene/reader.hpp>
+#include <mpm/simulation/load_balance.hpp>
 #include <mpm/simulation/progress.hpp>
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/recorder.hpp>
 #include <mpm/simulation/run.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -19,9 +21,6 @@
 namespace mpm {
 
 namespace {
-
-/// Steps between two looks at the largest speed of all ranks.
-constexpr GlobalIndex steps_between_speed_checks = 20;
 
 double seconds_since(std::chrono::steady_clock::time_point start)
 {
@@ -63,6 +62,7 @@ class Run {
         stepper_(decomposition, std::move(model_.transfer), std::move(model_.bodies),
                  std::move(model_.conditions),
                  {update_order_of(scene), 1e-24 * layout.largest_particle_mass}),
+        balance_(partition_rules(scene), scene.numerics.repartition_interval),
         history_(folder, stepper_, conditions_, model_.apparatus),
         snapshots_(scene, folder, comm_),
         moments_(snapshot_moments(scene, specimen, layout)),
@@ -82,16 +82,16 @@ class Run {
     double speed = layout_.largest_speed;
     double dt = 0;
     while (!finished()) {
-      if (stepper_.steps() % steps_between_speed_checks == 0) {
-        if (stepper_.steps() > 0)
-          speed =
-              std::max(layout_.largest_speed, largest_over_ranks(comm_, stepper_.largest_speed()));
+      if (stepper_.steps() % Stepper<2>::steps_between_checks == 0) {
+        speed = std::max(layout_.largest_speed, stepper_.agreed().largest_speed);
         dt = layout_.cfl * layout_.geometry.smallest_spacing() / (layout_.wave_speed + speed);
       }
       const double last = std::min(dt, end_ - stepper_.time());
       stepper_.step(last);
+      balance_.look(stepper_);
       history_.observe(stepper_);
       if (stepper_.time() >= double(next_line) * line_interval * (1 - 1e-12) || finished()) {
+        stepper_.check();
         const HistoryLine& line = history_.record(stepper_, last);
         next_line = std::size_t(stepper_.time() / line_interval * (1 + 1e-12)) + 1;
         show(line);
@@ -119,6 +119,7 @@ class Run {
       ++next_moment_;
     }
     if (!due) return;
+    stepper_.check();
     const auto start = std::chrono::steady_clock::now();
     snapshots_.write(stepper_, strain());
     output_seconds_ += seconds_since(start);
@@ -143,9 +144,32 @@ class Run {
   void finish()
   {
     const GlobalIndex most_bytes = largest_memory();
+    const Cooperation cooperation = measure_cooperation();
     agree(comm_, [&] {
-      if (rank_of(comm_) == 0) write_summary(most_bytes);
+      if (rank_of(comm_) == 0) write_summary(most_bytes, cooperation);
     });
+  }
+
+  /// How the ranks worked together.
+  struct Cooperation {
+    GlobalIndex migrated = 0;                          ///< particles, all ranks
+    double messages_per_step = 0, bytes_per_step = 0;  ///< of the rank that sends most
+    double waiting_seconds = 0;                        ///< of the one that waits most
+    double imbalance = 1;                              ///< of particles, at the end
+  };
+
+  /// Collective.
+  Cooperation measure_cooperation() const
+  {
+    const Stepper<2>::Counters mine = stepper_.counters();
+    const double steps = double(std::max<GlobalIndex>(stepper_.steps(), 1));
+    std::array<double, 4> largest{double(mine.messages) / steps, double(mine.bytes) / steps,
+                                  mine.waiting_seconds, double(stepper_.particles())};
+    largest_over_ranks(comm_, largest);
+    GlobalIndex migrated = mine.migrated;
+    sum_over_ranks(comm_, std::span(&migrated, 1));
+    return {migrated, largest[0], largest[1], largest[2],
+            largest[3] * ranks_of(comm_) / double(particles_)};
   }
 
   /// Particle and node arrays of the rank that has most, bytes.
@@ -170,7 +194,7 @@ class Run {
     return analysis::compression_properties(strain, stress, options);
   }
 
-  void write_summary(GlobalIndex most_bytes) const
+  void write_summary(GlobalIndex most_bytes, const Cooperation& cooperation) const
   {
     const HistoryLine& last = history_.lines().back();
     output::Summary summary;
@@ -195,6 +219,17 @@ class Run {
     summary.set("ns_per_particle_step", 1e9 * (loop_seconds_ - output_seconds_) * ranks_of(comm_) /
                                             (double(particles_) * double(stepper_.steps())));
     summary.set("largest_rank_bytes", most_bytes);
+    const IndexVec<2> process_grid = stepper_.decomposition().ranks_per_axis();
+    summary.set("decomposition", stepper_.decomposition().ownership().by_cuts()
+                                     ? fmt::format("cuts {} x {}", process_grid[0], process_grid[1])
+                                     : std::string("metis"));
+    summary.set("migrated", cooperation.migrated);
+    summary.set("repartitions", balance_.repartitions());
+    summary.set("messages_per_step", cooperation.messages_per_step);
+    summary.set("bytes_per_step", cooperation.bytes_per_step);
+    summary.set("imbalance", cooperation.imbalance);
+    summary.set("mean_imbalance", balance_.mean_imbalance());
+    summary.set("waiting_seconds", cooperation.waiting_seconds);
     summary.set("energy_error", last.energy_error);
     double largest_error = 0;
     for (const HistoryLine& line : history_.lines())
@@ -253,6 +288,7 @@ class Run {
   Model model_;
   std::vector<BoundaryCondition<2>*> conditions_;
   Stepper<2> stepper_;
+  LoadBalance<2> balance_;
   History history_;
   Snapshots snapshots_;
   Progress progress_;

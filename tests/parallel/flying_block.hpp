@@ -51,11 +51,19 @@ class BlockRun {
   /// `ranks`: of the process grid; 0 lets the decomposition choose.
   BlockRun(MPI_Comm comm, const IndexVec<2>& ranks, const IndexVec<2>& grid_cells,
            const Method& method, const std::vector<Block>& blocks, Conditions conditions)
-      : decomposition_(comm,
-                       {Vec<2>::Zero(), Vec<2>::Constant(cell), (grid_cells.array() + 1).matrix()},
-                       ranks, {}, {}),
-        stepper_(make_stepper(method, blocks, std::move(conditions)))
+      : BlockRun(Decomposition<2>(comm, grid_of(grid_cells), ranks, {}, {}), method, blocks,
+                 std::move(conditions))
   {
+  }
+  BlockRun(const Decomposition<2>& decomposition, const Method& method,
+           const std::vector<Block>& blocks, Conditions conditions)
+      : decomposition_(decomposition), stepper_(make_stepper(method, blocks, std::move(conditions)))
+  {
+  }
+
+  static GridGeometry<2> grid_of(const IndexVec<2>& cells)
+  {
+    return {Vec<2>::Zero(), Vec<2>::Constant(cell), (cells.array() + 1).matrix()};
   }
 
   Stepper<2>& stepper() { return *stepper_; }
@@ -65,6 +73,7 @@ class BlockRun {
   {
     const double wave_speed = stepper_->bodies().front().law->wave_speed();
     for (int k = 0; k < steps; ++k) stepper_->step(share * cell / (wave_speed + speed));
+    stepper_->check();
   }
 
   /// Collective.

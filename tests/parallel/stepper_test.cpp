@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flying_block.hpp"
+#include "ragged_blocks.hpp"
 #include <gmock/gmock.h>
 
 namespace mpm {
@@ -22,18 +23,16 @@ IndexVec<2> two_rows()
   return ranks % 2 == 0 ? IndexVec<2>(ranks / 2, 2) : IndexVec<2>(ranks, 1);
 }
 
-/// Runs the same on all ranks and, on rank 0, alone.
-template <class Make>
-void expect_same_on_one_rank(Make make, int steps, double share, double speed, double tolerance)
+/// What all ranks have done together, on rank 0 beside the same run on it alone. Collective.
+void expect_same_on_one_rank(const BlockRun& together, BlockRun alone, int steps, double share,
+                             double speed, double tolerance)
 {
-  BlockRun together = make(MPI_COMM_WORLD, two_rows());
-  together.advance(steps, share, speed);
   const Gathered shared = together.gather();
   EXPECT_THAT(shared.holders, ::testing::Each(1));
   if (rank_of(MPI_COMM_WORLD) != 0) return;
-  BlockRun alone = make(MPI_COMM_SELF, {0, 0});
   alone.advance(steps, share, speed);
   const Gathered single = alone.gather();
+  EXPECT_EQ(shared.mass, single.mass);
   ASSERT_EQ(shared.position.size(), single.position.size());
   double position = 0, velocity = 0, fastest = 0;
   for (std::size_t k = 0; k < single.position.size(); ++k) {
@@ -51,21 +50,23 @@ class FlyingBlock : public ::testing::TestWithParam<Method> {
   static constexpr double speed = 60;  // m/s
   static constexpr int steps = 700;
   static constexpr double share = 0.4;
-  static BlockRun make(MPI_Comm comm, const IndexVec<2>& ranks)
+  static GridGeometry<2> grid() { return BlockRun::grid_of({34, 27}); }
+  static BlockRun make(const Decomposition<2>& decomposition)
   {
-    return {comm, ranks, {34, 27}, GetParam(), {{{3, 3}, {8, 6}, {speed, 0.75 * speed}}}, {}};
+    return {decomposition, GetParam(), {{{3, 3}, {8, 6}, {speed, 0.75 * speed}}}, {}};
   }
+  static BlockRun alone() { return make({MPI_COMM_SELF, grid(), {0, 0}, {}, {}}); }
 };
 
 TEST_P(FlyingBlock, KeepsMassMomentumAndShapeAcrossTheRanks)
 {
-  BlockRun run = make(MPI_COMM_WORLD, two_rows());
+  BlockRun run = make({MPI_COMM_WORLD, grid(), two_rows(), {}, {}});
   const Gathered before = run.gather();
   run.advance(steps, share, speed);
   const Gathered after = run.gather();
   const double flown = speed * run.stepper().time();
   ASSERT_GT(flown, 10 * cell) << "the block must cross the boundaries of ranks";
-  GlobalIndex migrated = run.stepper().migrated();
+  GlobalIndex migrated = run.stepper().counters().migrated;
   sum_over_ranks(MPI_COMM_WORLD, std::span(&migrated, 1));
   if (ranks_of(MPI_COMM_WORLD) > 1) {
     EXPECT_GT(migrated, 0);
@@ -90,7 +91,20 @@ TEST_P(FlyingBlock, KeepsMassMomentumAndShapeAcrossTheRanks)
 
 TEST_P(FlyingBlock, IsAtTheSamePlaceOnAnyNumberOfRanks)
 {
-  expect_same_on_one_rank(make, steps, share, speed, 1e-12);
+  BlockRun run = make({MPI_COMM_WORLD, grid(), two_rows(), {}, {}});
+  run.advance(steps, share, speed);
+  expect_same_on_one_rank(run, alone(), steps, share, speed, 1e-12);
+}
+
+TEST_P(FlyingBlock, IsAtTheSamePlaceOnPartsOfAnyShape)
+{
+  const int ranks = ranks_of(MPI_COMM_WORLD);
+  for (const Ownership<2>& map :
+       {scattered_blocks(grid(), 4, ranks, 3), metis_blocks(grid(), ranks)}) {
+    BlockRun run = make({MPI_COMM_WORLD, map});
+    run.advance(steps, share, speed);
+    expect_same_on_one_rank(run, alone(), steps, share, speed, 1e-12);
+  }
 }
 
 // Linear functions with an affine field are absent: at a free edge nodes of vanishing mass keep
@@ -111,7 +125,10 @@ INSTANTIATE_TEST_SUITE_P(Methods, FlyingBlock,
 class PressedBlocks : public ::testing::TestWithParam<Method> {
  protected:
   static constexpr double speed = 20;  // m/s
-  static BlockRun make(MPI_Comm comm, const IndexVec<2>& ranks)
+  static constexpr int steps = 500;
+  static constexpr double share = 0.4;
+  static GridGeometry<2> grid() { return BlockRun::grid_of({26, 20}); }
+  static BlockRun make(const Decomposition<2>& decomposition)
   {
     const ReactionBook book =
         GetParam().scheme == flip ? ReactionBook::increments : ReactionBook::velocities;
@@ -126,14 +143,52 @@ class PressedBlocks : public ::testing::TestWithParam<Method> {
     add(1, true, 16 * cell, 0, WallGrip::slip);
     const std::vector<Block> blocks{{{4, 4}, {9, 12}, {0, 0}},
                                     {{15, 6}, {7, 8}, {-speed, 0.4 * speed}}};
-    return {comm, ranks, {26, 20}, GetParam(), blocks, std::move(walls)};
+    return {decomposition, GetParam(), blocks, std::move(walls)};
+  }
+  static BlockRun alone() { return make({MPI_COMM_SELF, grid(), {0, 0}, {}, {}}); }
+
+  /// Another map every time.
+  static Ownership<2> next_map(int round)
+  {
+    const int ranks = ranks_of(MPI_COMM_WORLD);
+    switch (round % 3) {
+      case 0:
+        return metis_blocks(grid(), ranks);
+      case 1:
+        return scattered_blocks(grid(), 3, ranks, unsigned(round));
+      default:
+        return weighted_cuts<2>(grid(), ranks, two_rows(), {}, {});
+    }
   }
 };
 
 // The run is elastic and smooth, so that rounding grows only slowly: 1e-9 leaves three digits.
 TEST_P(PressedBlocks, AreAtTheSamePlacesOnAnyNumberOfRanks)
 {
-  expect_same_on_one_rank(make, 500, 0.4, speed, 1e-9);
+  BlockRun run = make({MPI_COMM_WORLD, grid(), two_rows(), {}, {}});
+  run.advance(steps, share, speed);
+  expect_same_on_one_rank(run, alone(), steps, share, speed, 1e-9);
+}
+
+TEST_P(PressedBlocks, AreAtTheSamePlacesWhileTheBordersMoveEveryFewSteps)
+{
+  constexpr int interval = 4;
+  BlockRun run = make({MPI_COMM_WORLD, grid(), two_rows(), {}, {}});
+  const Gathered start = run.gather();
+  GlobalIndex sent = 0;
+  for (int round = 0; round < steps / interval; ++round) {
+    const Gathered before = run.gather();
+    sent += run.stepper().repartition(next_map(round));
+    const Gathered after = run.gather();  // the same bits, held by one rank each
+    EXPECT_THAT(after.holders, ::testing::Each(1));
+    EXPECT_EQ(after.mass, start.mass);
+    EXPECT_EQ(after.position, before.position);
+    EXPECT_EQ(after.velocity, before.velocity);
+    run.advance(interval, share, speed);
+  }
+  sum_over_ranks(MPI_COMM_WORLD, std::span(&sent, 1));
+  EXPECT_EQ(sent > 0, ranks_of(MPI_COMM_WORLD) > 1);
+  expect_same_on_one_rank(run, alone(), steps, share, speed, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, PressedBlocks,
@@ -181,6 +236,7 @@ TEST(LostParticle, StepOfMoreThanACellIsNamed)
                {{{4, 4}, {30, 10}, {1000, 1000}}}, {});
   try {
     run.stepper().step(2.5 * cell / 1000);
+    run.stepper().check();
     EXPECT_EQ(ranks_of(MPI_COMM_WORLD), 1) << "one rank's particles may go anywhere on the grid";
   } catch (const NumericalError& error) {
     EXPECT_THAT(error.what(), HasSubstr("moved by more than a cell in one step"));

@@ -98,7 +98,7 @@ class CommandLine(ProgramTest):
         run = self.run_here(scene("confined_block"), "-o", "out", "--set", "steps=3", "-log_view")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("PETSc Performance Summary", run.stdout)
-        self.assertIn("SFBcastBegin", run.stdout)
+        self.assertIn("Distributed Mesh", run.stdout)
 
     # What the user did wrong: status 2, and nothing is written.
 

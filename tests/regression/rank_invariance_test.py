@@ -37,6 +37,20 @@ class RankInvariance(ProgramTest):
                         "loading.load_cell.cells=3", "loading.piston=bottom",
                         "numerics.shape_function=quadratic", "numerics.scheme=tpic")
 
+    def test_elastic_honeycomb_on_blocks_mapped_by_metis_has_the_same_history(self):
+        self.check_same("material.yield_stress=500 GPa", "loading.strain=3 %",
+                        "numerics.decomposition=metis")
+
+    def test_elastic_honeycomb_has_the_same_history_while_the_borders_move(self):
+        """Every seven steps; History checks numbers, ids and mass of the particles at every line."""
+        for kind in "cuts", "metis":
+            self.check_same("material.yield_stress=500 GPa", "loading.strain=2 %",
+                            f"numerics.decomposition={kind}", "numerics.repartition_interval=7")
+            for ranks in ALL_RANKS:
+                found = summary(self.folder / f"on_{ranks}")
+                expected = found["steps"] // 7 if ranks > 1 else 0
+                self.assertEqual(found["repartitions"], expected)
+
     def test_crushed_honeycomb_has_the_same_properties(self):
         """Within 1 %: buckling amplifies rounding, but not what is extracted."""
         first, *others = self.histories()

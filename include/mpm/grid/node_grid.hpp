@@ -42,12 +42,16 @@ class NodeGrid {
   static constexpr int velocity_width = 4;
   static constexpr int remap_width = Dim == 2 ? 2 : 4;
 
+  /// `owned`: one mark per local node; each node of the whole grid has one owner.
+  NodeGrid(const GridGeometry<Dim>& geometry, const IndexBox<Dim>& local, std::vector<char> owned,
+           double mass_cut);
+  /// Owns the nodes of a box.
   NodeGrid(const GridGeometry<Dim>& geometry, const IndexBox<Dim>& local,
            const IndexBox<Dim>& owned, double mass_cut);
 
   const GridGeometry<Dim>& geometry() const { return geometry_; }
   const IndexBox<Dim>& local() const { return local_; }
-  const IndexBox<Dim>& owned() const { return owned_; }
+  bool is_owned(LocalIndex node) const { return owned_[node]; }
   LocalIndex size() const { return size_; }
   LocalIndex stride(int axis) const { return stride_[axis]; }
   LocalIndex index_of(const IndexVec<Dim>& global) const
@@ -97,15 +101,12 @@ class NodeGrid {
   LaneVector<double> gradient_velocity;  ///< what the velocity gradient is taken of
 
  private:
-  /// Marks what lies up to `below` and `above` nodes from a marked node along every axis.
-  void grow(std::vector<char>& marked, LocalIndex below, LocalIndex above) const;
-
   GridGeometry<Dim> geometry_;
-  IndexBox<Dim> local_, owned_;
+  IndexBox<Dim> local_;
   IndexVec<Dim> stride_;
   LocalIndex size_;
   double mass_cut_;
-  std::vector<char> touched_, kept_;
+  std::vector<char> owned_, touched_, kept_;
   std::vector<NodeRun<Dim>> runs_;
 };
 

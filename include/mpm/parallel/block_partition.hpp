@@ -21,8 +21,9 @@ struct BlockPartition {
   GlobalIndex cut_nodes = 0;  ///< grid nodes on faces between blocks of different ranks
 };
 
-/// k-way partition (Karypis & Kumar 1998, SIAM J. Sci. Comput. 20:359) with few cut nodes; the same
-/// result on every rank. Throws InputError if there are more ranks than blocks.
+/// k-way partition (Karypis & Kumar 1998, SIAM J. Sci. Comput. 20:359) with few cut nodes; every
+/// rank gets at least one block, and every rank computes the same result. Throws InputError if
+/// there are more ranks than blocks.
 template <int Dim>
 BlockPartition partition_blocks(const BlockWork<Dim>& blocks, int ranks);
 

@@ -2,57 +2,68 @@
 /// Sums of node values over the ranks that share the nodes.
 
 #include <mpm/parallel/decomposition.hpp>
+#include <mpm/parallel/shared_nodes.hpp>
 
-#include <memory>
+#include <span>
 
 namespace mpm {
+
+/// What one exchange sums.
+enum class NodeSum {
+  mass_momentum_force,  ///< MUSL, USL
+  mass_momentum,        ///< USF
+  force,                ///< USF
+  remapped_momentum     ///< MUSL
+};
+
+/// Values per node that a sum sends.
+template <int Dim>
+int values_of(NodeSum sum);
 
 /// Every rank whose stencils reach a node holds a partial sum there. One round of messages gives
 /// each sharer all partial sums, and each adds them in the order of the ranks: the same bits on
 /// all of them, and no second round to copy results back. Only shared nodes are packed; there is
-/// one message per neighbour, through a PetscSF.
+/// one message per neighbour, and work on other nodes may go on between `begin` and `end`.
 template <int Dim>
 class Halo {
  public:
-  /// Collective.
   Halo(const Decomposition<Dim>& decomposition, int support);
-  ~Halo();
-  Halo(const Halo&) = delete;
-  Halo& operator=(const Halo&) = delete;
 
   /// Shared nodes of this rank, local numbering, ascending.
-  const std::vector<LocalIndex>& shared_nodes() const { return shared_; }
+  const std::vector<LocalIndex>& shared_nodes() const { return shared_.nodes; }
+  /// Ranks that share nodes with this one, ascending.
+  std::vector<int> neighbours() const;
 
-  // Each is collective over the neighbours.
-  void sum_mass_momentum_force(NodeGrid<Dim>& grid);  ///< MUSL, USL
-  void sum_mass_momentum(NodeGrid<Dim>& grid);        ///< USF
-  void sum_force(NodeGrid<Dim>& grid);                ///< USF
-  void sum_remapped_momentum(NodeGrid<Dim>& grid);    ///< MUSL
+  /// Sends this rank's partial sums. `notes`: a number for each neighbour that travels along (none
+  /// given: 0). Every neighbour calls the same.
+  void begin(NodeSum sum, NodeGrid<Dim>& grid, std::span<const LocalIndex> notes = {});
+  /// Lets messages move on during long work: large ones need both sides' attention.
+  void advance();
+  /// Waits for the others' partial sums and adds all.
+  void end(NodeGrid<Dim>& grid);
+  /// What the neighbours noted in the last exchange.
+  std::span<const LocalIndex> notes() const { return notes_; }
+  /// Whether shared nodes still hold what `begin` sent.
+  bool untouched(NodeGrid<Dim>& grid) const;
 
   struct Traffic {
-    int neighbours;
-    GlobalIndex shared_nodes;
-    GlobalIndex received_nodes;
+    GlobalIndex messages = 0, bytes = 0;  ///< sent by this rank since the start
+    double waiting_seconds = 0;           ///< in `end`
   };
-  Traffic traffic() const;
+  const Traffic& traffic() const { return traffic_; }
+  /// Pairs of a shared node and a neighbour.
+  GlobalIndex sent_nodes() const { return shared_.sent_nodes(); }
 
  private:
-  class Exchange;
-  /// `Count::value` doubles per node; place(node, v) points to value v of a node.
-  template <class Count, class Place>
-  void sum(Count count, Place place);
-
-  /// Nodes shared with one rank: positions in `shared_`.
-  struct Sharer {
-    int rank;
-    std::vector<LocalIndex> positions;
-    std::size_t first;  ///< of its values in the receive buffer, in nodes
-  };
+  MPI_Comm comm_;
   int rank_;
-  std::vector<LocalIndex> shared_;
-  std::vector<Sharer> sharers_;  ///< ascending rank
-  std::size_t received_ = 0;
-  std::unique_ptr<Exchange> exchange_;
+  SharedNodes shared_;
+  NodeSum sum_{};
+  std::vector<double> own_, total_;
+  std::vector<std::vector<double>> sent_, received_;  ///< per neighbour; the last one is the note
+  std::vector<MPI_Request> requests_;
+  std::vector<LocalIndex> notes_;
+  Traffic traffic_;
 };
 
 }  // namespace mpm

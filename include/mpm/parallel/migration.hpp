@@ -1,44 +1,56 @@
 #pragma once
-/// Particles go to the rank that owns the cell they are in.
+/// Particles that leave this rank's cells in a step go to the neighbour that owns their new cell.
 
-#include <mpm/materials/law.hpp>
 #include <mpm/parallel/decomposition.hpp>
+#include <mpm/transfer/transfer.hpp>
 
 #include <span>
 
 namespace mpm {
 
+/// In a step a particle gets no farther than the cells next to this rank's own, so its new owner is
+/// a neighbour in the halo. How much each neighbour has to expect travels as a note with the halo's
+/// message: no message at all while nobody leaves, no collective ever.
 template <int Dim>
 class Migration {
  public:
-  explicit Migration(const Decomposition<Dim>& decomposition) : decomposition_(decomposition) {}
+  /// `neighbours`: of the halo, which share this rank's surroundings.
+  Migration(const Decomposition<Dim>& decomposition, int support, std::vector<int> neighbours);
 
-  /// Particles of one body that may have left: blocks in which at least one is outside the cells
-  /// that this rank owns. Only these are looked at.
-  struct Leavers {
-    Body<Dim>* body;
-    std::span<const LocalIndex> blocks;
-  };
+  /// Packs the particles of a part that are in another rank's cell; bodies in ascending order.
+  /// Returns a particle that is beyond all neighbouring cells, if there is one.
+  std::optional<LocalIndex> collect(const BodyPart<Dim>& part, std::size_t body);
+  /// Sends what was collected; `notes` are then what the neighbours have to expect.
+  void send();
+  std::span<const LocalIndex> notes() const { return notes_; }
 
   struct Outcome {
-    GlobalIndex sent = 0;             ///< by this rank
-    std::vector<LocalIndex> arrived;  ///< per entry of `leavers`, particles received (at the end)
-    bool failed = false;              ///< some rank called with `failed`
+    GlobalIndex sent = 0;            ///< particles, by this rank
+    std::vector<LocalIndex> stayed;  ///< per body; arrivals stand behind, in the order of ranks
   };
+  /// Takes out what was sent and adds what the neighbours' notes say.
+  Outcome finish(std::vector<Body<Dim>>& bodies, std::span<const LocalIndex> expected);
 
-  /// Sends particles to any rank, near or far; arrivals stand at the end of the stores in the order
-  /// of the sending ranks. All ranks learn whether any of them `failed`. Collective; `leavers` has
-  /// the same bodies in the same order on every rank.
-  ///
-  /// Messages go to those that get particles only (nonblocking consensus; Hoefler, Siebert &
-  /// Lumsdaine 2010, PPoPP): synchronous sends, probe and receive, and once one's own sends have
-  /// arrived a nonblocking reduction, whose end means that nothing is under way any more.
-  Outcome exchange(std::span<const Leavers> leavers, bool failed);
+  GlobalIndex messages() const { return messages_; }
+  GlobalIndex bytes() const { return bytes_; }
 
  private:
-  const Decomposition<Dim>& decomposition_;
-  // Alternates, so that a rank that is one exchange ahead is not mistaken for this one's sender.
-  int round_ = 0;
+  /// For one neighbour: packed particles of each body.
+  using Packet = std::vector<std::vector<double>>;
+  void unpack(std::vector<Body<Dim>>& bodies, const std::vector<double>& buffer) const;
+
+  static constexpr int beyond = -2, home = -1;
+  MPI_Comm comm_;
+  GridGeometry<Dim> geometry_;
+  IndexBox<Dim> local_;
+  std::vector<int> neighbours_;
+  std::vector<int> target_;      ///< per cell of `local_`: home, place in `neighbours_`, or beyond
+  std::vector<Packet> packets_;  ///< per neighbour
+  std::vector<std::vector<LocalIndex>> gone_;  ///< per body
+  std::vector<std::vector<double>> buffers_;
+  std::vector<LocalIndex> notes_;
+  std::vector<MPI_Request> sends_;
+  GlobalIndex messages_ = 0, bytes_ = 0;
 };
 
 }  // namespace mpm

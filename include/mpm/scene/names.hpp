@@ -56,6 +56,11 @@ template <>
 inline constexpr auto names_of<UpdateOrder> = std::to_array<Named<UpdateOrder>>(
     {{UpdateOrder::musl, "musl"}, {UpdateOrder::usf, "usf"}, {UpdateOrder::usl, "usl"}});
 template <>
+inline constexpr auto names_of<DecompositionKind> =
+    std::to_array<Named<DecompositionKind>>({{DecompositionKind::automatic, "auto"},
+                                             {DecompositionKind::cuts, "cuts"},
+                                             {DecompositionKind::metis, "metis"}});
+template <>
 inline constexpr auto names_of<Lateral> = std::to_array<Named<Lateral>>(
     {{Lateral::rigid, "rigid"}, {Lateral::free, "free"}, {Lateral::symmetric, "symmetric"}});
 template <>

@@ -132,6 +132,7 @@ struct Grid {
 enum class ShapeFunction { linear, gimp, quadratic };
 enum class TransferScheme { flip, pic, apic, tpic };
 enum class UpdateOrder { musl, usf, usl };
+enum class DecompositionKind { automatic, cuts, metis };
 
 struct Numerics {
   Plane plane = Plane::strain;
@@ -139,8 +140,10 @@ struct Numerics {
   ShapeFunction shape_function = ShapeFunction::gimp;
   TransferScheme scheme = TransferScheme::flip;
   UpdateOrder update_order = UpdateOrder::musl;
-  std::optional<double> cfl;       ///< default depends on shape function and update order
-  std::array<int, 2> ranks{0, 0};  ///< process grid; 0: chosen
+  std::optional<double> cfl;  ///< default depends on shape function and update order
+  DecompositionKind decomposition = DecompositionKind::automatic;
+  std::array<int, 2> ranks{0, 0};  ///< process grid of cuts; 0: chosen
+  int repartition_interval = 0;    ///< steps; 0: when it pays
   bool operator==(const Numerics&) const = default;
 };
 

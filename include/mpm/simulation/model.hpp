@@ -3,7 +3,7 @@
 
 #include <mpm/conditions/rigid_wall.hpp>
 #include <mpm/micrograph/specimen.hpp>
-#include <mpm/parallel/decomposition.hpp>
+#include <mpm/parallel/partition.hpp>
 #include <mpm/scene/scene.hpp>
 #include <mpm/simulation/stepper.hpp>
 #include <mpm/transfer/transfer.hpp>
@@ -39,8 +39,6 @@ struct Layout {
   /// Of the piston, towards the specimen; and the time at which it reaches the last strain, s.
   WallMotion piston;
   double end_time;
-  /// Particles per cell layer along each axis, all bodies.
-  std::array<std::vector<double>, 2> layer_weights;
   struct LoadCellBox {
     IndexBox<2> locations;
     double density_ratio;
@@ -69,7 +67,11 @@ double default_cfl(const scene::Numerics& numerics);
 UpdateOrderKind update_order_of(const scene::Scene& scene);
 std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int particles_per_cell);
 
-/// Cuts by particles, along the piston's travel only where there is no other way. Collective.
-Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene, const Layout& layout);
+/// Cuts across the piston's travel come first.
+PartitionRules<2> partition_rules(const scene::Scene& scene);
+/// Balanced by the particles at the start. Collective.
+Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene,
+                                    const micrograph::SpecimenModel& specimen,
+                                    const Layout& layout);
 
 }  // namespace mpm

@@ -193,16 +193,14 @@ class KernelTransfer final : public Transfer<Dim> {
 
     if constexpr (Content.move) {
       if constexpr (!Content.velocity) load_all(motion, Columns::grid_velocity, u);
-      LaneMask home(true), reach(true);
+      LaneMask reach(true);
       for (int d = 0; d < Dim; ++d) {
         largest_speed = stdx::max(largest_speed, stdx::abs(u[d]));
         x[d] += dt * u[d];
-        home = home && x[d] >= bounds->home_lower[d] && x[d] < bounds->home_upper[d];
         reach = reach && x[d] >= bounds->reach_lower[d] && x[d] < bounds->reach_upper[d];
       }
       if (!stdx::all_of(reach)) [[unlikely]]
         report_lost(particles, block, reach, v, *bounds, x, outcome);
-      if (!stdx::all_of(home)) outcome.blocks_with_leavers.push_back(block);
       store_all(x, motion, Columns::position);
     }
 
@@ -217,8 +215,8 @@ class KernelTransfer final : public Transfer<Dim> {
     scatter.template add<needs_affine>(stencil, mass, momentum, force_stress, affine);
   }
 
-  /// Notes the first lost particle and puts all lost ones where memory is valid; the run ends with
-  /// this step.
+  /// Notes the first lost particle and puts all lost ones where memory is valid; the run ends
+  /// soon after.
   void report_lost(const ParticleStore& particles, LocalIndex block, const LaneMask& reach,
                    const Lanes (&v)[Dim], const MoveBounds<Dim>& bounds, Lanes (&x)[Dim],
                    MoveOutcome<Dim>& outcome) const
@@ -235,7 +233,7 @@ class KernelTransfer final : public Transfer<Dim> {
         }
       }
       for (int d = 0; d < Dim; ++d)
-        x[d][lane] = 0.5 * (bounds.home_lower[d] + bounds.home_upper[d]);
+        x[d][lane] = 0.5 * (bounds.reach_lower[d] + bounds.reach_upper[d]);
     }
   }
 

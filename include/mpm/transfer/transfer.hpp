@@ -24,16 +24,14 @@ struct LostParticle {
 /// What a pass that moves particles found out on the way.
 template <int Dim>
 struct MoveOutcome {
-  double largest_speed = 0;                     ///< m/s, largest component of a grid velocity
-  std::vector<LocalIndex> blocks_with_leavers;  ///< blocks that hold a particle outside `home`
+  double largest_speed = 0;  ///< m/s, largest component of a grid velocity
   std::optional<LostParticle<Dim>> lost;
 };
 
-/// Bounds that a moving pass compares positions with.
+/// Where stencils still lie on this rank's nodes, m; particles beyond are put in the middle.
 template <int Dim>
 struct MoveBounds {
-  Vec<Dim> home_lower, home_upper;    ///< m, cells that this rank owns
-  Vec<Dim> reach_lower, reach_upper;  ///< m, where stencils still lie on this rank's nodes
+  Vec<Dim> reach_lower, reach_upper;
 };
 
 /// Blocks [first, end) of a body: a step may do those near other ranks before the rest.

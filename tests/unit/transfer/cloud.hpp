@@ -134,7 +134,7 @@ struct Cloud {
   MoveBounds<Dim> wide_bounds() const
   {
     const Vec<Dim> far = Vec<Dim>::Constant(1e9);
-    return {-far, far, -far, far};
+    return {-far, far};
   }
 
   static GridGeometry<Dim> geometry()

@@ -1,0 +1,33 @@
+#pragma once
+/// Where on the grid the work is, as coarsely as a partition needs to know.
+
+#include <mpm/parallel/block_partition.hpp>
+#include <mpm/parallel/weighted_cuts.hpp>
+
+#include <mpi.h>
+
+namespace mpm {
+
+/// Particles per cell layer along each axis, and per block of cells.
+template <int Dim>
+class WorkMap {
+ public:
+  /// Blocks are small enough for a balanced partition on so many ranks.
+  WorkMap(const GridGeometry<Dim>& geometry, int ranks);
+
+  void add(const IndexVec<Dim>& cell);
+  /// Collective.
+  void sum_over_ranks(MPI_Comm comm);
+
+  const LayerWeights<Dim>& layers() const { return layers_; }
+  const BlockWork<Dim>& blocks() const { return blocks_; }
+
+ private:
+  LayerWeights<Dim> layers_;
+  BlockWork<Dim> blocks_;
+};
+
+/// Load of the busiest rank over the mean.
+double imbalance_of(const std::vector<double>& loads);
+
+}  // namespace mpm

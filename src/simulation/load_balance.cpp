@@ -1,0 +1,98 @@
+#include <mpm/parallel/session.hpp>
+#include <mpm/simulation/load_balance.hpp>
+
+#include <algorithm>
+
+namespace mpm {
+
+namespace {
+
+constexpr double bound = 1.05;
+constexpr int checks_in_a_row = 3;
+/// Steps until the next attempt after one that did not pay.
+constexpr GlobalIndex steps_of_patience = 500;
+/// Steps that a gain is counted for at least.
+constexpr GlobalIndex shortest_horizon = 1000;
+
+template <int Dim, class Visit>
+void for_each_cell_of(const Stepper<Dim>& stepper, Visit visit)
+{
+  const GridGeometry<Dim>& geometry = stepper.decomposition().geometry();
+  for (const Body<Dim>& body : stepper.bodies())
+    for (LocalIndex p = 0; p < body.particles.size(); ++p) {
+      Vec<Dim> position;
+      for (int d = 0; d < Dim; ++d) position[d] = body.particles.motion()(d, p);
+      visit(geometry.cell_of(position));
+    }
+}
+
+/// What the present particles ask for. Collective.
+template <int Dim>
+Partition<Dim> present_choice(const Stepper<Dim>& stepper, const PartitionRules<Dim>& rules)
+{
+  const Decomposition<Dim>& now = stepper.decomposition();
+  WorkMap<Dim> work(now.geometry(), now.ranks());
+  for_each_cell_of(stepper, [&](const IndexVec<Dim>& cell) { work.add(cell); });
+  work.sum_over_ranks(now.comm());
+  const auto loads_under = [&](const Ownership<Dim>& ownership) {
+    std::vector<double> loads(ownership.ranks(), 0.0);
+    for_each_cell_of(stepper,
+                     [&](const IndexVec<Dim>& cell) { loads[ownership.owner_of_cell(cell)] += 1; });
+    sum_over_ranks(now.comm(), loads);
+    return loads;
+  };
+  return choose_partition<Dim>(now.geometry(), now.ranks(), rules, work, loads_under,
+                               &now.ownership());
+}
+
+}  // namespace
+
+template <int Dim>
+void LoadBalance<Dim>::look(Stepper<Dim>& stepper)
+{
+  if (stepper.decomposition().ranks() == 1) return;
+  if (stepper.steps() % Stepper<Dim>::steps_between_checks == 0) {
+    imbalance_sum_ += stepper.agreed().imbalance();
+    ++checks_;
+  }
+  if (!is_due(stepper)) return;
+  checks_above_ = 0;
+  if (!move_borders(stepper)) not_before_ = stepper.steps() + steps_of_patience;
+}
+
+template <int Dim>
+bool LoadBalance<Dim>::is_due(const Stepper<Dim>& stepper)
+{
+  if (interval_ > 0) return stepper.steps() % interval_ == 0;
+  if (stepper.steps() % Stepper<Dim>::steps_between_checks != 0) return false;
+  const typename Stepper<Dim>::Agreed& agreed = stepper.agreed();
+  const bool above = agreed.busiest_seconds > bound * agreed.mean_seconds;
+  checks_above_ = above ? checks_above_ + 1 : 0;
+  return checks_above_ >= checks_in_a_row && stepper.steps() >= not_before_;
+}
+
+template <int Dim>
+bool LoadBalance<Dim>::move_borders(Stepper<Dim>& stepper)
+{
+  const MPI_Comm comm = stepper.decomposition().comm();
+  const double start = MPI_Wtime();
+  const Partition<Dim> next = present_choice(stepper, rules_);
+  if (interval_ == 0) {
+    const typename Stepper<Dim>::Agreed& agreed = stepper.agreed();
+    const double fullest = *std::ranges::max_element(next.loads);
+    const double saved = agreed.busiest_seconds / double(agreed.steps) *
+                         (1 - fullest / double(agreed.most_particles));
+    const GlobalIndex horizon = std::max(shortest_horizon, stepper.steps() - last_);
+    if (saved <= 0 || saved * double(horizon) < cost_) return false;
+  }
+  stepper.repartition(next.ownership);
+  cost_ = largest_over_ranks(comm, MPI_Wtime() - start);
+  last_ = stepper.steps();
+  ++repartitions_;
+  return true;
+}
+
+template class LoadBalance<2>;
+template class LoadBalance<3>;
+
+}  // namespace mpm

@@ -1,0 +1,107 @@
+/// What the ranks of a run agree on from time to time, and how it ends when a particle is lost.
+
+#include <mpm/core/error.hpp>
+#include <mpm/parallel/session.hpp>
+#include <mpm/simulation/stepper.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace mpm {
+
+namespace {
+
+template <int Dim>
+std::string text_of(const Vec<Dim>& v, int digits)
+{
+  std::string text;
+  for (int d = 0; d < Dim; ++d) text += fmt::format("{}{:.{}g}", d ? ", " : "", v[d], digits);
+  return text;
+}
+
+template <int Dim>
+std::string words_for(const LostParticle<Dim>& lost, const GridGeometry<Dim>& geometry,
+                      const std::string& body, GlobalIndex step, double time)
+{
+  bool outside = false, finite = true;
+  for (int d = 0; d < Dim; ++d) {
+    finite = finite && std::isfinite(lost.position[d]) && std::isfinite(lost.velocity[d]);
+    outside = outside || lost.position[d] < geometry.node_position(d, 1) ||
+              lost.position[d] >= geometry.node_position(d, geometry.nodes[d] - 2);
+  }
+  const char* what = !finite   ? "is no longer a number"
+                     : outside ? "left the grid"
+                               : "moved by more than a cell in one step";
+  const char* remedy = !finite || !outside
+                           ? "Lower numerics.cfl, or look at the last snapshots."
+                           : "Give the grid a wider grid.margin, or lower numerics.cfl.";
+  return fmt::format(
+      "particle {} of body '{}' {} at ({}) m in step {}, t = {:.6g} s, with velocity ({}) m/s. {}",
+      lost.id, body, what, text_of<Dim>(lost.position, 6), step, time,
+      text_of<Dim>(lost.velocity, 4), remedy);
+}
+
+}  // namespace
+
+template <int Dim>
+void Stepper<Dim>::check()
+{
+  if (checked_ == steps_) return;
+  constexpr double never = -std::numeric_limits<double>::infinity();
+  // The largest of: speed, time of work, particles, and minus the step of the first loss.
+  std::array<double, 4> largest{largest_speed_, busy_.seconds(), double(particles()),
+                                loss_ ? -double(loss_->step) : never};
+  const MPI_Comm comm = decomposition_.comm();
+  largest_over_ranks(comm, largest);
+  if (largest[3] > never) stop(GlobalIndex(-largest[3]));
+  std::array<double, 2> mean{busy_.seconds(), double(particles())};
+  sum_over_ranks(comm, mean);
+  for (double& value : mean) value /= decomposition_.ranks();
+  agreed_ = {largest[0], largest[1], mean[0], steps_ - checked_, GlobalIndex(largest[2]), mean[1]};
+  busy_.clear();
+  checked_ = steps_;
+}
+
+template <int Dim>
+void Stepper<Dim>::note_loss(std::size_t body, const LostParticle<Dim>& lost)
+{
+  if (!loss_) loss_ = Loss{lost, bodies_[body].name, steps_ + 1, time_};
+}
+
+template <int Dim>
+LostParticle<Dim> Stepper<Dim>::strayed(std::size_t body, LocalIndex particle) const
+{
+  const ParticleStore& particles = bodies_[body].particles;
+  const int velocity = particles.motion().find("velocity");
+  LostParticle<Dim> lost{particles.ids()[particle]};
+  for (int d = 0; d < Dim; ++d) {
+    lost.position[d] = particles.motion()(d, particle);
+    lost.velocity[d] = particles.motion()(velocity + d, particle);
+  }
+  return lost;
+}
+
+template <int Dim>
+void Stepper<Dim>::stop(GlobalIndex first_loss)
+{
+  agree(decomposition_.comm(), [&] {
+    if (loss_ && loss_->step == first_loss)
+      throw NumericalError(
+          words_for(loss_->particle, grid_.geometry(), loss_->body, loss_->step, loss_->time));
+  });
+  throw NumericalError("a rank stopped without a reason");  // agree() has thrown before
+}
+
+template void Stepper<2>::check();
+template void Stepper<3>::check();
+template void Stepper<2>::note_loss(std::size_t, const LostParticle<2>&);
+template void Stepper<3>::note_loss(std::size_t, const LostParticle<3>&);
+template LostParticle<2> Stepper<2>::strayed(std::size_t, LocalIndex) const;
+template LostParticle<3> Stepper<3>::strayed(std::size_t, LocalIndex) const;
+template void Stepper<2>::stop(GlobalIndex);
+template void Stepper<3>::stop(GlobalIndex);
+
+}  // namespace mpm
