@@ -84,7 +84,8 @@ class Run {
     while (!finished()) {
       if (stepper_.steps() % Stepper<2>::steps_between_checks == 0) {
         speed = std::max(layout_.largest_speed, stepper_.agreed().largest_speed);
-        dt = layout_.cfl * layout_.geometry.smallest_spacing() / (layout_.wave_speed + speed);
+        const double wave = std::max(layout_.wave_speed, stepper_.agreed().wave_speed);
+        dt = layout_.cfl * layout_.geometry.smallest_spacing() / (wave + speed);
       }
       const double last = std::min(dt, end_ - stepper_.time());
       stepper_.step(last);

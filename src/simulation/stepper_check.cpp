@@ -1,9 +1,11 @@
 /// What the ranks of a run agree on from time to time, and how it ends when a particle is lost.
 
 #include <mpm/core/error.hpp>
+#include <mpm/materials/present_wave_speed.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/stepper.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -51,16 +53,20 @@ void Stepper<Dim>::check()
 {
   if (checked_ == steps_) return;
   constexpr double never = -std::numeric_limits<double>::infinity();
-  // The largest of: speed, time of work, particles, and minus the step of the first loss.
-  std::array<double, 4> largest{largest_speed_, busy_.seconds(), double(particles()),
+  double wave_speed = 0;
+  for (const Body<Dim>& body : bodies_) wave_speed = std::max(wave_speed, present_wave_speed(body));
+  // The largest of: speeds, time of work, particles, and minus the step of the first loss.
+  std::array<double, 5> largest{largest_speed_, wave_speed, busy_.seconds(), double(particles()),
                                 loss_ ? -double(loss_->step) : never};
   const MPI_Comm comm = decomposition_.comm();
   largest_over_ranks(comm, largest);
-  if (largest[3] > never) stop(GlobalIndex(-largest[3]));
+  if (largest[4] > never) stop(GlobalIndex(-largest[4]));
   std::array<double, 2> mean{busy_.seconds(), double(particles())};
   sum_over_ranks(comm, mean);
   for (double& value : mean) value /= decomposition_.ranks();
-  agreed_ = {largest[0], largest[1], mean[0], steps_ - checked_, GlobalIndex(largest[2]), mean[1]};
+  agreed_ = {largest[0], largest[1],        largest[2],
+             mean[0],    steps_ - checked_, GlobalIndex(largest[3]),
+             mean[1]};
   busy_.clear();
   checked_ = steps_;
 }

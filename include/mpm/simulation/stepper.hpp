@@ -49,6 +49,7 @@ class Stepper {
   /// What the ranks told each other in the last check.
   struct Agreed {
     double largest_speed = 0;  ///< m/s, component of a particle's grid velocity in the last step
+    double wave_speed = 0;     ///< m/s, of the fastest wave in the particles as they are
     /// Time of work, without waiting, since the check before: of the busiest rank, and the mean.
     double busiest_seconds = 0, mean_seconds = 0;
     GlobalIndex steps = 0;  ///< since the check before
