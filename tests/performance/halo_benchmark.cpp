@@ -9,7 +9,7 @@ namespace mpm::performance {
 namespace {
 
 template <int Dim>
-void sum_halo(benchmark::State& state, void (Halo<Dim>::*sum)(NodeGrid<Dim>&))
+void sum_halo(benchmark::State& state, NodeSum sum)
 {
   constexpr int support = 3;
   const Decomposition<Dim> decomposition(MPI_COMM_WORLD, geometry<Dim>(cells_per_axis<Dim>),
@@ -18,7 +18,10 @@ void sum_halo(benchmark::State& state, void (Halo<Dim>::*sum)(NodeGrid<Dim>&))
   NodeGrid<Dim> grid(decomposition.geometry(), decomposition.local(decomposition.rank(), support),
                      decomposition.owned(decomposition.rank()), 0);
   MPI_Barrier(MPI_COMM_WORLD);
-  for (auto _ : state) (halo.*sum)(grid);
+  for (auto _ : state) {
+    halo.begin(sum, grid);
+    halo.end(grid);
+  }
   const double shared = double(halo.shared_nodes().size());
   state.counters["shared_nodes"] = shared;
   state.counters["ns_per_node"] = benchmark::Counter(
@@ -29,14 +32,14 @@ void sum_halo(benchmark::State& state, void (Halo<Dim>::*sum)(NodeGrid<Dim>&))
 template <int Dim>
 void register_sums()
 {
-  const auto add = [](const char* name, void (Halo<Dim>::*sum)(NodeGrid<Dim>&)) {
+  const auto add = [](const char* name, NodeSum sum) {
     benchmark::RegisterBenchmark((dimension<Dim>() + "/halo/" + name).c_str(), sum_halo<Dim>, sum)
         ->Iterations(Dim == 2 ? 2000 : 200)
         ->UseRealTime()
         ->Unit(benchmark::kMicrosecond);
   };
-  add("mass_momentum_force", &Halo<Dim>::sum_mass_momentum_force);
-  add("remapped_momentum", &Halo<Dim>::sum_remapped_momentum);
+  add("mass_momentum_force", NodeSum::mass_momentum_force);
+  add("remapped_momentum", NodeSum::remapped_momentum);
 }
 
 class Silent : public benchmark::BenchmarkReporter {

@@ -60,7 +60,7 @@ struct Block {
   void run(Pass pass)
   {
     const Vec<Dim> far = Vec<Dim>::Constant(1);
-    const MoveBounds<Dim> bounds{-far, far, -far, far};
+    const MoveBounds<Dim> bounds{-far, far};
     switch (pass) {
       case Pass::musl_velocity:
         return transfer->musl_velocity(body, grid);

@@ -91,7 +91,7 @@ void press(const char* name, const Transfer<2>& transfer, std::unique_ptr<Law<2>
   NodeGrid<2> grid = grid_around(transfer.support());
   Walls walls;
   const Vec<2> far = Vec<2>::Constant(1);
-  const MoveBounds<2> bounds{-far, far, -far, far};
+  const MoveBounds<2> bounds{-far, far};
   transfer.prime(body, grid, true);
   for (int step = 0; step < steps; ++step) {
     grid.update_velocity(dt);
