@@ -84,7 +84,7 @@ def find(summary, key):
 
 
 COUNTERS = {"migrated": "particles", "messages_per_step": "1", "bytes_per_step": "B",
-            "imbalance": "1"}
+            "imbalance": "1", "mean_imbalance": "1", "repartitions": "1"}
 
 
 def measure_ranks(build, repeat, quick):
