@@ -4,6 +4,7 @@
 #
 #   sh jobscripts/install_packages.sh                     everything
 #   sh jobscripts/install_packages.sh --without-pictures  no ParaView, no Matplotlib (240 MB less)
+#   sh jobscripts/install_packages.sh --with-benchmarks   also what -DMPM_BUILD_BENCHMARKS=ON needs
 #   sh jobscripts/install_packages.sh --list              print the names and stop
 #
 # Debian 12 and 13, Ubuntu 24.04. Elsewhere: docs/building.md names the libraries.
@@ -15,13 +16,15 @@ build_packages="g++ make cmake pkg-config ca-certificates python3
   libudunits2-dev libstb-dev libtiff-dev"
 picture_packages="python3-numpy python3-h5py python3-matplotlib python3-paraview
   xvfb xauth libgl1-mesa-dri"
+benchmark_packages="libbenchmark-dev valgrind"
 
 pictures=yes
 for option in "$@"; do
   case $option in
     --without-pictures) pictures=no ;;
-    --list) echo $build_packages; echo $picture_packages; exit 0 ;;
-    -h | --help) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    --with-benchmarks) build_packages="$build_packages $benchmark_packages" ;;
+    --list) echo $build_packages; echo $picture_packages; echo $benchmark_packages; exit 0 ;;
+    -h | --help) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "install_packages.sh: unknown option '$option'. See --help." >&2; exit 2 ;;
   esac
 done

@@ -26,6 +26,12 @@ void ColumnGroup::resize(LocalIndex particles)
   data_.resize(blocks * width_ * lane_count, 0.0);
 }
 
+void ColumnGroup::reserve(LocalIndex particles)
+{
+  const std::size_t blocks = (std::size_t(particles) + lane_count - 1) / lane_count;
+  data_.reserve(blocks * width_ * lane_count);
+}
+
 void ColumnGroup::copy_particle(LocalIndex from, LocalIndex to)
 {
   for (int c = 0; c < width_; ++c) (*this)(c, to) = (*this)(c, from);
@@ -51,6 +57,13 @@ ParticleStore::ParticleStore(std::vector<Column> motion, std::vector<Column> sta
   };
   mark(motion_, zero_motion_);
   mark(state_, zero_state_);
+}
+
+void ParticleStore::reserve(LocalIndex particles)
+{
+  ids_.reserve(particles);
+  motion_.reserve(particles);
+  state_.reserve(particles);
 }
 
 LocalIndex ParticleStore::add(GlobalIndex id)

@@ -41,11 +41,17 @@ class BodyFiller {
     return intersection(locations, near);
   }
 
-  void add(int i, int j, GlobalIndex id, const std::array<double, 2>& velocity)
+  /// Whether a location lies in this rank's cells.
+  bool is_home(int i, int j) const
   {
     const IndexVec<2> cell(cell_of_location(layout_, per_cell_, i, 0),
                            cell_of_location(layout_, per_cell_, j, 1));
-    if (decomposition_.owner_of_cell(cell) != decomposition_.rank()) return;
+    return decomposition_.owner_of_cell(cell) == decomposition_.rank();
+  }
+
+  void add(int i, int j, GlobalIndex id, const std::array<double, 2>& velocity)
+  {
+    if (!is_home(i, j)) return;
     ParticleStore& particles = body_.particles;
     const LocalIndex p = particles.add(id);
     ColumnGroup& motion = particles.motion();
@@ -158,6 +164,11 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
     Body<2>& body = model.bodies.emplace_back(empty_body(material, int(k), scene, *model.transfer));
     BodyFiller filler(body, layout, decomposition, per_cell);
     const IndexBox<2> near = filler.nearby({{0, 0}, {lattice.nx, lattice.ny}});
+    LocalIndex count = 0;
+    for (int j = near.lower[1]; j < near.upper[1]; ++j)
+      for (int i = near.lower[0]; i < near.upper[0]; ++i)
+        count += lattice(i, j) == std::int8_t(k) && filler.is_home(i, j);
+    body.particles.reserve(count);
     for (int j = near.lower[1]; j < near.upper[1]; ++j)
       for (int i = near.lower[0]; i < near.upper[0]; ++i)
         if (lattice(i, j) == std::int8_t(k)) {

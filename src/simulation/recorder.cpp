@@ -3,7 +3,9 @@
 #include <mpm/simulation/recorder.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -178,10 +180,18 @@ namespace {
 using output::ParticleField;
 using scene::Field;
 
+std::size_t count(const std::vector<Body<2>>& bodies)
+{
+  std::size_t particles = 0;
+  for (const Body<2>& body : bodies) particles += std::size_t(body.particles.size());
+  return particles;
+}
+
 /// Column of a state field; zeros for bodies that do not have it.
 std::vector<double> state_column(const std::vector<Body<2>>& bodies, const std::string& name)
 {
   std::vector<double> values;
+  values.reserve(count(bodies));
   for (const Body<2>& body : bodies) {
     const int column = body.particles.state().find(name);
     for (LocalIndex p = 0; p < body.particles.size(); ++p)
@@ -190,32 +200,35 @@ std::vector<double> state_column(const std::vector<Body<2>>& bodies, const std::
   return values;
 }
 
-/// Cauchy stress xx yy zz xy yz xz of every particle.
-std::vector<double> stresses(const std::vector<Body<2>>& bodies)
+/// `Components` values of every particle, which `function` makes of its Cauchy stress
+/// xx yy zz xy yz xz. Stresses are not kept: a snapshot holds no more than what it writes.
+template <std::size_t Components, class Function>
+std::vector<double> of_stress(const std::vector<Body<2>>& bodies, Function function)
 {
   alignas(lane_alignment) double block[6 * lane_count];
   std::vector<double> values;
+  values.reserve(Components * count(bodies));
   for (const Body<2>& body : bodies)
     for (LocalIndex p = 0; p < body.particles.size(); ++p) {
       if (p % lane_count == 0)
         body.law->cauchy_stress(body.particles.state().block(p / lane_count), block);
-      for (int k = 0; k < 6; ++k) values.push_back(block[k * lane_count + p % lane_count]);
+      std::array<double, 6> stress;
+      for (int k = 0; k < 6; ++k) stress[k] = block[k * lane_count + p % lane_count];
+      const std::array<double, Components> made = function(stress);
+      values.insert(values.end(), made.begin(), made.end());
     }
   return values;
 }
 
-double von_mises(const double* s)
+std::array<double, 1> von_mises(const std::array<double, 6>& s)
 {
   const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+  return {std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]))};
 }
 
-template <class Function>
-std::vector<double> of_each(const std::vector<double>& stress, Function function)
+std::array<double, 1> pressure(const std::array<double, 6>& s)
 {
-  std::vector<double> values;
-  for (std::size_t k = 0; k < stress.size(); k += 6) values.push_back(function(&stress[k]));
-  return values;
+  return {-(s[0] + s[1] + s[2]) / 3};
 }
 
 ParticleField make_field(Field field, const Stepper<2>& stepper)
@@ -224,6 +237,7 @@ ParticleField make_field(Field field, const Stepper<2>& stepper)
   switch (field) {
     case Field::velocity: {
       std::vector<double> values;
+      values.reserve(3 * count(bodies));
       for (const Body<2>& body : bodies) {
         const int v = body.particles.motion().find("velocity");
         for (LocalIndex p = 0; p < body.particles.size(); ++p)
@@ -233,12 +247,11 @@ ParticleField make_field(Field field, const Stepper<2>& stepper)
       return {"velocity", "m/s", 3, std::move(values)};
     }
     case Field::stress:
-      return {"stress", "Pa", 6, stresses(bodies)};
+      return {"stress", "Pa", 6, of_stress<6>(bodies, std::identity{})};
     case Field::von_mises:
-      return {"von_mises", "Pa", 1, of_each(stresses(bodies), von_mises)};
+      return {"von_mises", "Pa", 1, of_stress<1>(bodies, von_mises)};
     case Field::pressure:
-      return {"pressure", "Pa", 1,
-              of_each(stresses(bodies), [](const double* s) { return -(s[0] + s[1] + s[2]) / 3; })};
+      return {"pressure", "Pa", 1, of_stress<1>(bodies, pressure)};
     case Field::plastic_strain:
       return {"plastic_strain", "1", 1, state_column(bodies, "plastic_strain")};
     case Field::plastic_work:
@@ -276,6 +289,7 @@ void Snapshots::write(const Stepper<2>& stepper, double strain)
   snapshot.time = stepper.time();
   snapshot.strain = strain;
   snapshot.step = stepper.steps();
+  snapshot.position.reserve(3 * count(stepper.bodies()));
   for (const Body<2>& body : stepper.bodies())
     for (LocalIndex p = 0; p < body.particles.size(); ++p)
       snapshot.position.insert(snapshot.position.end(),

@@ -67,6 +67,7 @@ class ColumnGroup {
   }
 
   void resize(LocalIndex particles);
+  void reserve(LocalIndex particles);
   void copy_particle(LocalIndex from, LocalIndex to);
   /// Particle k becomes the one that was at order[k].
   void permute(std::span<const LocalIndex> order);
@@ -94,6 +95,8 @@ class ParticleStore {
   const ColumnGroup& state() const { return state_; }
   std::span<const GlobalIndex> ids() const { return ids_; }
 
+  /// Memory for this many, so that adding them neither copies nor takes more.
+  void reserve(LocalIndex particles);
   /// Adds a particle whose columns are all zero; `seal` when the last one is filled.
   LocalIndex add(GlobalIndex id);
   /// Doubles that one packed particle takes.

@@ -185,5 +185,19 @@ TEST(ParticleStore, ALongLifeOfRandomChangesLosesNothing)
   EXPECT_GT(there.size(), 100);
 }
 
+TEST(ParticleStore, ReservedForItsParticlesTakesTheMemoryOfItsColumnsOnly)
+{
+  constexpr int count = 1100;  // far from a power of two, to which memory would grow by doubling
+  ParticleStore store = empty_store();
+  store.reserve(count);
+  Model model;
+  GlobalIndex next_id = 0;
+  add_particles(store, model, count, next_id);
+  const std::size_t columns =
+      std::size_t(store.blocks()) * lane_count * (motion_width + state_width) * sizeof(double);
+  EXPECT_EQ(store.bytes(), columns + count * sizeof(GlobalIndex));
+  EXPECT_EQ(read(store), model);
+}
+
 }  // namespace
 }  // namespace mpm

@@ -1,0 +1,47 @@
+"""docs/performance.md from the stored table, the hand-written changes and the plan."""
+from measuring import PROJECT
+from plan import plan
+from table import about_text, catalogue, markdown
+
+PAGE = PROJECT / "docs" / "performance.md"
+CHANGES = PROJECT / "docs" / "performance" / "changes.md"
+PICTURE = PROJECT / "docs" / "images" / "cost_growth.png"
+
+
+def section(title, text, remark=""):
+    return f"## {title}\n\n" + (f"{remark}\n\n" if remark else "") + text + "\n" if text else ""
+
+
+def page(table, release):
+    rows = table["figures"]
+    whole = [row for row in rows if row["name"].count("/") < 5]
+    planned = "\n".join(["| | from | result |", "|---|---|---|"] +
+                        [f"| {what} | {formula} | {result} |"
+                         for what, formula, result in plan(table)])
+    parts = [
+        "# Performance\n",
+        "Written by `tests/performance/benchmark.py` from the table of release "
+        f"{release} (`tests/performance/stored/{release}.json`) and from\n"
+        "[performance/changes.md](performance/changes.md). Measure again:\n\n"
+        "```sh\ncmake -S . -B build -DMPM_BUILD_BENCHMARKS=ON && cmake --build build -j2\n"
+        "python3 tests/performance/benchmark.py\n```\n",
+        about_text(table) + "\n",
+        "A figure is the median of its samples, `+-` half their range. Runs are pinned to cores of "
+        "their own.\n",
+        section("The program, and what is not a pass", markdown(whole)),
+        section("Passes by themselves", catalogue(rows, "kernel"),
+                "Nanoseconds per particle: 160,000 particles in the plane (Hencky), 512,000 in space "
+                "(rate form), sorted, one core. `plastic`: every particle flows."),
+        section("Whole steps", catalogue(rows, "step"),
+                "Nanoseconds per particle and step of the same blocks through `Stepper`, one rank."),
+        section("Growth", "![time per step](images/cost_growth.png)" if PICTURE.exists() else ""),
+        section("1e8 particles", planned if plan(table) else "",
+                "Computed from the figures of eight million particles on 2 ranks; messages between "
+                "more ranks are not in it."),
+        CHANGES.read_text() if CHANGES.exists() else ""]
+    return "\n".join(part for part in parts if part)
+
+
+def write_page(table, release):
+    PAGE.write_text(page(table, release))
+    print(f"wrote {PAGE.relative_to(PROJECT)}")

@@ -1,0 +1,136 @@
+"""Figures of the whole program on shipped scenes."""
+import json
+import tempfile
+from pathlib import Path
+
+from measuring import PROJECT, callgrind_instructions, figure, instructions, run
+
+BENCHMARKS = PROJECT / "inputs" / "benchmarks"
+WOOD = PROJECT / "inputs" / "wood"
+SHAPES = ("linear", "gimp", "quadratic")
+
+
+def command(build, scene, folder, settings=()):
+    words = [build.mpm_par, scene, "--output", folder]
+    for setting in settings:
+        words += ["--set", setting]
+    return words
+
+
+def one_run(build, scene, settings=(), ranks=1, oversubscribed=False):
+    """The run's summary, with seconds, peak_bytes and bytes of its results added."""
+    with tempfile.TemporaryDirectory() as folder:
+        seconds, peak = run(command(build, scene, folder, settings), ranks, oversubscribed)
+        summary = json.loads((Path(folder) / "summary.json").read_text())
+        snapshots = [file.stat().st_size for file in Path(folder).glob("snapshots/*.h5")]
+    return {**summary, "seconds": seconds, "peak_bytes": peak, "snapshot_bytes": sum(snapshots)}
+
+
+def runs(build, repeat, *arguments, **more):
+    return [one_run(build, *arguments, **more) for _ in range(repeat)]
+
+
+def each(results, key):
+    return [result[key] for result in results]
+
+
+def measure_blocks(build, repeat, quick):
+    """Plastic and elastic blocks on one rank, and the plastic ones on two: strong scaling."""
+    rows = []
+    elastic = ["material={law: isotropic, youngs_modulus: 10.6 GPa, poisson_ratio: 0.33, "
+               "density: 1500 kg/m^3}"]
+    for shape in SHAPES[1:2] if quick else SHAPES:
+        scene = BENCHMARKS / f"block_{shape}.yaml"
+        alone = runs(build, repeat, scene)
+        unit = "ns/particle/step"
+        rows.append(figure(f"block {shape}", each(alone, "ns_per_particle_step"), unit))
+        if quick:
+            continue
+        rows.append(figure(f"block {shape}, elastic",
+                           each(runs(build, repeat, scene, elastic), "ns_per_particle_step"), unit))
+        pair = runs(build, repeat, scene, ranks=2)
+        rows.append(figure(f"block {shape}, 2 ranks", each(pair, "ns_per_particle_step"),
+                           "ns/particle/step x ranks"))
+        one, two = (sorted(each(results, "loop_seconds"))[len(results) // 2]
+                    for results in (alone, pair))
+        rows.append(figure(f"block {shape}, speed-up on 2 ranks", [one / two], "1", "ratio"))
+    return rows
+
+
+def measure_wood(build, _repeat, quick):
+    """Full runs, from first to last step: one sample of each, because they take minutes."""
+    rows = []
+    loblolly, ponderosa = WOOD / "loblolly_radial.yaml", WOOD / "ponderosa_tangential.yaml"
+    cases = [(loblolly, 1), (loblolly, 2), (ponderosa, 2)]
+    settings = ["steps=500"] if quick else []
+    for scene, ranks in cases[:1] if quick else cases:
+        result = one_run(build, scene, settings, ranks)
+        name = f"{scene.stem}{', first 500 steps' if quick else ''}, {ranks} rank{'s'[:ranks > 1]}"
+        rows.append(figure(f"{name}: loop", [result["loop_seconds"]], "s"))
+        rows.append(figure(f"{name}: whole program", [result["seconds"]], "s"))
+        rows.append(figure(f"{name}: per step", [result["ns_per_particle_step"]],
+                           "ns/particle/step x ranks"))
+    return rows
+
+
+def find(summary, key):
+    """A counter wherever it stands in the summary."""
+    if key in summary:
+        return summary[key]
+    for value in summary.values():
+        if isinstance(value, dict) and find(value, key) is not None:
+            return find(value, key)
+    return None
+
+
+COUNTERS = {"migrated": "particles", "messages_per_step": "1", "bytes_per_step": "B",
+            "imbalance": "1", "mean_imbalance": "1", "repartitions": "1"}
+
+
+def measure_ranks(build, repeat, quick):
+    """A block that fills half of its domain: time on one and two ranks; on more ranks than there
+    are cores counts only, as times would mean nothing there."""
+    scene = BENCHMARKS / "one_sided.yaml"
+    rows = []
+    for ranks in (1, 2):
+        results = runs(build, repeat, scene, ranks=ranks)
+        rows.append(figure(f"one-sided block, {ranks} rank{'s'[:ranks > 1]}",
+                           each(results, "ns_per_particle_step"), "ns/particle/step x ranks"))
+        waiting = [find(result, "waiting_seconds") for result in results]
+        if ranks > 1 and all(isinstance(value, (int, float)) for value in waiting):
+            rows.append(figure(f"one-sided block, {ranks} ranks: waiting", waiting, "s", "count"))
+    for ranks in (2,) if quick else (1, 2, 3, 4):
+        result = one_run(build, scene, ranks=ranks, oversubscribed=True)
+        rows.append(figure(f"one-sided block, {ranks} rank{'s'[:ranks > 1]}: largest rank",
+                           [result["largest_rank_bytes"]], "B", "count"))
+        for counter, unit in COUNTERS.items():
+            value = find(result, counter)
+            if isinstance(value, (int, float)):
+                rows.append(figure(f"one-sided block, {ranks} rank{'s'[:ranks > 1]}: {counter}",
+                                   [value], unit, "count"))
+    return rows
+
+
+def measure_instructions(build, _repeat, quick):
+    """Instructions that do not depend on who else uses the machine: the difference of two runs of
+    a small block, per particle and step."""
+    settings = ["grid.cells=[40, 40]"]
+    steps = (10, 30)
+    for counter, name in ((instructions, "perf"), (callgrind_instructions, "callgrind")):
+        if quick and counter is callgrind_instructions:
+            continue
+        rows = []
+        for shape in SHAPES:
+            counts = []
+            for number in steps:
+                with tempfile.TemporaryDirectory() as folder:
+                    counts.append(counter(command(build, BENCHMARKS / f"block_{shape}.yaml", folder,
+                                                  [*settings, f"steps={number}"])))
+            if None in counts:
+                break
+            per_step = (counts[1] - counts[0]) / (40 * 40 * 4 * (steps[1] - steps[0]))
+            rows.append(figure(f"block {shape}: instructions ({name})", [per_step],
+                               "instructions/particle/step", "instructions"))
+        if rows:
+            return rows
+    return []

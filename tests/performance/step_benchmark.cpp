@@ -1,0 +1,123 @@
+// Nanoseconds per particle of a whole step through Stepper, one rank: grid update, passes, checks.
+#include <mpm/conditions/rigid_wall.hpp>
+#include <mpm/parallel/session.hpp>
+#include <mpm/simulation/stepper.hpp>
+
+#include "benchmark_block.hpp"
+#include <benchmark/benchmark.h>
+
+namespace mpm::performance {
+namespace {
+
+constexpr double rate = 5e4;  // 1/s: a strain of 5e-5 in each step
+constexpr double dt = 1e-9;   // s
+
+constexpr const char* order_names[] = {"musl", "usf", "usl"};
+
+/// These take the gradient of a velocity that the force has just changed: no stable step.
+bool unstable(const Case& c, UpdateOrderKind order)
+{
+  return c.shape == ShapeKind::linear &&
+         (order == UpdateOrderKind::usl || c.scheme == SchemeKind::apic ||
+          c.scheme == SchemeKind::tpic);
+}
+
+/// A block whose lower sides rest on walls and whose upper sides are pressed towards them.
+template <int Dim>
+class PressedBlock {
+ public:
+  PressedBlock(const Case& c, UpdateOrderKind order)
+      : parameters(c),
+        order(order),
+        decomposition_(MPI_COMM_WORLD, geometry<Dim>(cells_per_axis<Dim>), IndexVec<Dim>::Zero(),
+                       {}, {}),
+        stepper_(make_stepper())
+  {
+    for (int k = 0; k < 4; ++k) step();  // past yield
+  }
+
+  void step() { stepper_->step(dt); }
+  LocalIndex particles() const { return stepper_->particles(); }
+
+  const Case parameters;
+  const UpdateOrderKind order;
+
+ private:
+  std::unique_ptr<Stepper<Dim>> make_stepper() const
+  {
+    constexpr LocalIndex cells = cells_per_axis<Dim>;
+    auto transfer = make_transfer<Dim>(parameters.shape, parameters.scheme, 2);
+    std::vector<Body<Dim>> bodies;
+    bodies.push_back(
+        make_body<Dim>(*transfer, order == UpdateOrderKind::musl, parameters.plastic, cells, rate));
+    std::vector<std::unique_ptr<BoundaryCondition<Dim>>> walls;
+    const ReactionBook book =
+        parameters.scheme == SchemeKind::flip ? ReactionBook::increments : ReactionBook::velocities;
+    for (int d = 0; d < Dim; ++d) {
+      const double length = cells * spacing;
+      walls.push_back(std::make_unique<RigidWall<Dim>>(
+          typename RigidWall<Dim>::Placement{d, false, 0.0}, WallMotion{}, WallGrip::slip, book));
+      walls.push_back(
+          std::make_unique<RigidWall<Dim>>(typename RigidWall<Dim>::Placement{d, true, length},
+                                           WallMotion{-rate * length, 0}, WallGrip::slip, book));
+    }
+    return std::make_unique<Stepper<Dim>>(
+        decomposition_, std::move(transfer), std::move(bodies), std::move(walls),
+        typename Stepper<Dim>::Setup{order, 1e-24 * density * std::pow(spacing, Dim)});
+  }
+
+  Decomposition<Dim> decomposition_;
+  std::unique_ptr<Stepper<Dim>> stepper_;
+};
+
+/// The block of the last case, which its repetitions take as it is.
+template <int Dim>
+std::unique_ptr<PressedBlock<Dim>> kept;
+
+template <int Dim>
+PressedBlock<Dim>& block_of(const Case& c, UpdateOrderKind order)
+{
+  if (!kept<Dim> || kept<Dim>->parameters != c || kept<Dim>->order != order) {
+    kept<Dim>.reset();
+    kept<Dim> = std::make_unique<PressedBlock<Dim>>(c, order);
+  }
+  return *kept<Dim>;
+}
+
+template <int Dim>
+void register_steps()
+{
+  for (const UpdateOrderKind order :
+       {UpdateOrderKind::musl, UpdateOrderKind::usf, UpdateOrderKind::usl})
+    for_each_case([order](const Case& c) {
+      if (unstable(c, order)) return;
+      benchmark::RegisterBenchmark(
+          (dimension<Dim>() + "/step_" + order_names[int(order)] + '/' + name_of(c)).c_str(),
+          [order, c](benchmark::State& state) {
+            PressedBlock<Dim>& block = block_of<Dim>(c, order);
+            for (auto _ : state) block.step();
+            state.counters["ns_per_particle"] = benchmark::Counter(
+                1e-9 * block.particles(),
+                benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+          })
+          ->Iterations(Dim == 2 ? 8 : 1)
+          ->Unit(benchmark::kMillisecond);
+    });
+}
+
+}  // namespace
+}  // namespace mpm::performance
+
+int main(int argc, char** argv)
+{
+  using namespace mpm;
+  const Session session(1, argv, {});
+  performance::register_steps<2>();
+  performance::register_steps<3>();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  // Steppers hold PETSc objects: they end before the session.
+  performance::kept<2>.reset();
+  performance::kept<3>.reset();
+}
