@@ -35,6 +35,8 @@ void read_and_run(const scene::CommandLine& command_line)
   const Decomposition<2> decomposition =
       make_decomposition(MPI_COMM_WORLD, scene, specimen, layout);
   print_once(plan_text(scene, specimen, layout, decomposition));
+  if (!command_line.ranks.empty())
+    print_once(rank_study_text(scene, specimen, layout, command_line.ranks));
   if (command_line.check) return;
   run_scene(scene, specimen, layout, decomposition, scene::results_folder(command_line, scene));
 }

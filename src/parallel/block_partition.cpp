@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -50,6 +51,70 @@ std::vector<int> metis_ranks(BlockGraph& graph, std::vector<idx_t> work, int ran
   return {part.begin(), part.end()};
 }
 
+/// Blocks in the order of their distance from work, counted in blocks across faces, and for each
+/// the one it was reached from.
+struct Surroundings {
+  std::vector<LocalIndex> order, from;
+  std::size_t near = 0;  ///< so many of them are close to work
+};
+
+/// Air farther than this many blocks from work goes to the owner of the nearest: mapped by METIS it
+/// would be one rank's at no cost, with a border to all others.
+constexpr LocalIndex farthest_mapped = 2;
+
+Surroundings spread_from_work(const BlockGraph& graph, const std::vector<LocalIndex>& work)
+{
+  Surroundings found;
+  std::vector<LocalIndex> distance(work.size(), -1);
+  found.from.assign(work.size(), -1);
+  for (std::size_t block = 0; block < work.size(); ++block)
+    if (work[block] > 0) found.order.push_back(LocalIndex(block)), distance[block] = 0;
+  for (std::size_t k = 0; k < found.order.size(); ++k) {
+    const LocalIndex block = found.order[k];
+    if (distance[block] <= farthest_mapped) found.near = k + 1;
+    for (idx_t n = graph.first[block]; n < graph.first[block + 1]; ++n) {
+      const LocalIndex next = LocalIndex(graph.neighbour[n]);
+      if (distance[next] >= 0) continue;
+      distance[next] = distance[block] + 1;
+      found.from[next] = block;
+      found.order.push_back(next);
+    }
+  }
+  return found;
+}
+
+/// The graph of some blocks alone, numbered in their order.
+BlockGraph part_of(const BlockGraph& graph, std::span<const LocalIndex> blocks)
+{
+  std::vector<LocalIndex> number(graph.first.size() - 1, -1);
+  for (std::size_t k = 0; k < blocks.size(); ++k) number[blocks[k]] = LocalIndex(k);
+  BlockGraph part;
+  for (const LocalIndex block : blocks) {
+    for (idx_t n = graph.first[block]; n < graph.first[block + 1]; ++n)
+      if (number[graph.neighbour[n]] >= 0) part.neighbour.push_back(number[graph.neighbour[n]]);
+    part.first.push_back(idx_t(part.neighbour.size()));
+  }
+  return part;
+}
+
+/// A rank for every block: by METIS near work, by the nearest owner elsewhere.
+std::vector<int> map_blocks(BlockGraph& graph, const std::vector<LocalIndex>& work, int ranks)
+{
+  const Surroundings all = spread_from_work(graph, work);
+  if (all.near < std::size_t(ranks)) return metis_ranks(graph, {work.begin(), work.end()}, ranks);
+  std::vector<LocalIndex> near(all.order.begin(), all.order.begin() + std::ptrdiff_t(all.near));
+  std::ranges::sort(near);
+  BlockGraph part = part_of(graph, near);
+  std::vector<idx_t> part_work;
+  for (const LocalIndex block : near) part_work.push_back(work[block]);
+  const std::vector<int> mapped = metis_ranks(part, part_work, ranks);
+  std::vector<int> rank_of_block(work.size(), 0);
+  for (std::size_t k = 0; k < near.size(); ++k) rank_of_block[near[k]] = mapped[k];
+  for (std::size_t k = all.near; k < all.order.size(); ++k)
+    rank_of_block[all.order[k]] = rank_of_block[all.from[all.order[k]]];
+  return rank_of_block;
+}
+
 /// A part without a block gets the lightest one of a rank that has several.
 void leave_nobody_empty(std::vector<int>& rank_of_block, const std::vector<LocalIndex>& work,
                         int ranks)
@@ -83,7 +148,7 @@ BlockPartition partition_blocks(const BlockWork<Dim>& blocks, int ranks)
   partition.rank.assign(count, 0);
   if (ranks == 1) return partition;
   BlockGraph graph = face_neighbours<Dim>(blocks.blocks);
-  partition.rank = metis_ranks(graph, {blocks.work.begin(), blocks.work.end()}, ranks);
+  partition.rank = map_blocks(graph, blocks.work, ranks);
   leave_nobody_empty(partition.rank, blocks.work, ranks);
 
   std::vector<double> load(ranks, 0.0);

@@ -33,6 +33,12 @@ struct Options {
     app.set_version_flag("--version", version);
     app.add_option("scene", command_line.scene, "Scene file (YAML)");
     app.add_flag("--check", command_line.check, "Read the scene, print the plan, run nothing");
+    app.add_option("--ranks", command_line.ranks,
+                   "With --check: balance and messages on so many ranks, without running on them")
+        ->type_name("P[,P...]")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 1 << 20))
+        ->allow_extra_args(false);
     app.add_option("-o,--output", command_line.output, "Folder of results (results/NAME)")
         ->type_name("DIR");
     app.add_option("--set", command_line.overrides,
@@ -70,7 +76,7 @@ std::vector<std::string> without_petsc(const std::vector<std::string>& arguments
       if (std::ranges::find(names, name) == names.end())
         throw InputError(fmt::format("unknown option '{}' ({})", name, suggestion(name, names)));
       ours.push_back(word);
-      if (word == "--set" || word == "--output") take_next(ours);
+      if (word == "--set" || word == "--output" || word == "--ranks") take_next(ours);
     } else if (std::ranges::find(short_options, word) != short_options.end()) {
       ours.push_back(word);
       if (word == "-o") take_next(ours);
@@ -118,6 +124,8 @@ std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::stri
   }
   if (options.command_line.scene.empty())
     throw InputError("no scene named. Write mpm_par scene.yaml, or see mpm_par --help.");
+  if (!options.command_line.ranks.empty() && !options.command_line.check)
+    throw InputError("--ranks belongs to --check. Start a run with mpirun -n RANKS.");
   return std::move(options.command_line);
 }
 

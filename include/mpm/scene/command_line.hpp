@@ -15,6 +15,7 @@ struct CommandLine {
   std::filesystem::path scene;
   std::optional<std::filesystem::path> output;  ///< --output
   bool check = false;                           ///< --check: read, print the plan, run nothing
+  std::vector<int> ranks;                       ///< --ranks: numbers of ranks to study
   std::vector<std::string> overrides;           ///< --set
   std::vector<std::string> petsc;               ///< options for PETSc with their values, in order
 };

@@ -14,6 +14,11 @@ namespace mpm {
 std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
                       const Layout& layout, const Decomposition<2>& decomposition);
 
+/// How the scene would be shared out among each of these numbers of ranks: the text of
+/// --check --ranks.
+std::string rank_study_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+                            const Layout& layout, const std::vector<int>& ranks);
+
 /// s, from the wave speed and the largest speed at the start.
 double first_time_step(const Layout& layout);
 

@@ -53,6 +53,14 @@ TEST(CommandLineOptions, OursMayStandBeforeAndBehindTheScene)
   EXPECT_EQ(results_folder(line, Scene{}), "out");
 }
 
+TEST(CommandLineOptions, RanksToStudyAreAListAndBelongToCheck)
+{
+  EXPECT_THAT(parsed({"--check", "--ranks", "8,64,512", "a.yaml"}).ranks, ElementsAre(8, 64, 512));
+  EXPECT_THAT(parsed({"a.yaml", "--check", "--ranks=3"}).ranks, ElementsAre(3));
+  EXPECT_THAT(refusal({"--ranks", "8", "a.yaml"}), HasSubstr("--ranks belongs to --check"));
+  EXPECT_THAT(refusal({"--check", "--ranks", "0", "a.yaml"}), HasSubstr("--ranks"));
+}
+
 TEST(CommandLineOptions, PetscGetsItsOwnWithTheirValues)
 {
   const CommandLine line = parsed(

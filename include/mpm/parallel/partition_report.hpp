@@ -1,0 +1,37 @@
+#pragma once
+/// What a map of owners would cost, for any number of ranks and without running on them.
+
+#include <mpm/parallel/partition.hpp>
+
+#include <functional>
+#include <string>
+
+namespace mpm {
+
+struct PartitionReport {
+  double imbalance = 1;          ///< particles of the fullest rank over the mean
+  GlobalIndex shared_nodes = 0;  ///< of the rank that shares most
+  int messages = 0;              ///< per exchange, of the rank with most neighbours
+  GlobalIndex bytes = 0;         ///< per exchange of mass, momentum and force, of the busiest
+};
+
+/// visit(cell) for each particle.
+template <int Dim>
+using CellVisits = std::function<void(const std::function<void(const IndexVec<Dim>&)>& visit)>;
+
+template <int Dim>
+std::vector<double> loads_of(const Ownership<Dim>& ownership, const CellVisits<Dim>& particles);
+
+/// Looks at every rank in turn.
+template <int Dim>
+PartitionReport report_on(const Ownership<Dim>& ownership, int support,
+                          const CellVisits<Dim>& particles);
+
+/// Reports on cuts and on blocks, before and after a change of the particles' places: with the
+/// borders left as they were, and moved. One line each, under a header.
+template <int Dim>
+std::string partition_table(const GridGeometry<Dim>& geometry, const std::vector<int>& ranks,
+                            const PartitionRules<Dim>& rules, int support,
+                            const CellVisits<Dim>& before, const CellVisits<Dim>& after);
+
+}  // namespace mpm
