@@ -14,6 +14,8 @@ constexpr GlobalIndex steps_of_patience = 500;
 /// Share of the latest check in the smoothed cost of a particle, and how far that may be from the
 /// mean: on a rank with few particles the nodes cost more than they do.
 constexpr double newest = 0.2, largest_cost = 1.5;
+/// Costs are compared while no rank has more than so many times the mean's particles.
+constexpr double comparable = 1.1;
 /// Steps that a gain is counted for at least.
 constexpr GlobalIndex shortest_horizon = 1000;
 
@@ -76,7 +78,11 @@ void LoadBalance<Dim>::observe(const Stepper<Dim>& stepper)
   imbalance_sum_ += agreed.imbalance();
   work_sum_ += agreed.work_imbalance();
   ++checks_;
-  if (interval_ > 0 || stepper.particles() == 0) return;
+  if (interval_ > 0) return;
+  if (agreed.imbalance() > comparable || stepper.particles() == 0) {
+    particle_cost_ = 1;
+    return;
+  }
   const double own = agreed.own_seconds / stepper.particles();
   const double mean = agreed.mean_seconds / agreed.mean_particles;
   const double cost = std::clamp(own / mean, 1 / largest_cost, largest_cost);
@@ -108,6 +114,7 @@ bool LoadBalance<Dim>::move_borders(Stepper<Dim>& stepper)
   stepper.repartition(choice.next.ownership);
   cost_ = largest_over_ranks(comm, MPI_Wtime() - start);
   last_ = stepper.steps();
+  particle_cost_ = 1;  // others' particles are here now
   ++repartitions_;
   return true;
 }
