@@ -73,12 +73,16 @@ void Stepper<Dim>::move_and_sum(NodeSum sum, double dt,
     largest_speed_ = std::max(largest_speed_, outcome.largest_speed);
     if (outcome.lost && !lost[body]) lost[body] = outcome.lost;
   };
+  const auto note_losses = [&] {
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      if (lost[b]) note_loss(b, *lost[b]);
+  };
   visit_near(visit);
+  note_losses();  // before leavers are looked for: a lost particle is not where it went
   collect_leavers();
   halo_.begin(sum, grid_, migration_.notes());
   visit_interior(visit);
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    if (lost[b]) note_loss(b, *lost[b]);
+  note_losses();
   collect_sums();
   exchange_leavers();
 
