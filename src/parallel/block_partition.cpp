@@ -2,6 +2,7 @@
 #include <mpm/parallel/block_partition.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -36,8 +37,13 @@ BlockGraph face_neighbours(const IndexVec<Dim>& blocks)
   return graph;
 }
 
-std::vector<int> metis_ranks(BlockGraph& graph, std::vector<idx_t> work, int ranks)
+std::vector<int> metis_ranks(BlockGraph& graph, const std::vector<double>& weights, int ranks)
 {
+  // Whole numbers, fine enough for measured costs and small enough to be added up.
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const double scale = sum > 0 ? std::min(64.0, 1e9 / sum) : 1.0;
+  std::vector<idx_t> work;
+  for (const double weight : weights) work.push_back(idx_t(std::lround(scale * weight)));
   idx_t count = idx_t(work.size()), constraints = 1, parts = ranks, cut = 0;
   std::vector<idx_t> part(work.size(), 0);
   idx_t options[METIS_NOPTIONS];
@@ -62,7 +68,7 @@ struct Surroundings {
 /// would be one rank's at no cost, with a border to all others.
 constexpr LocalIndex farthest_mapped = 2;
 
-Surroundings spread_from_work(const BlockGraph& graph, const std::vector<LocalIndex>& work)
+Surroundings spread_from_work(const BlockGraph& graph, const std::vector<double>& work)
 {
   Surroundings found;
   std::vector<LocalIndex> distance(work.size(), -1);
@@ -98,14 +104,14 @@ BlockGraph part_of(const BlockGraph& graph, std::span<const LocalIndex> blocks)
 }
 
 /// A rank for every block: by METIS near work, by the nearest owner elsewhere.
-std::vector<int> map_blocks(BlockGraph& graph, const std::vector<LocalIndex>& work, int ranks)
+std::vector<int> map_blocks(BlockGraph& graph, const std::vector<double>& work, int ranks)
 {
   const Surroundings all = spread_from_work(graph, work);
-  if (all.near < std::size_t(ranks)) return metis_ranks(graph, {work.begin(), work.end()}, ranks);
+  if (all.near < std::size_t(ranks)) return metis_ranks(graph, work, ranks);
   std::vector<LocalIndex> near(all.order.begin(), all.order.begin() + std::ptrdiff_t(all.near));
   std::ranges::sort(near);
   BlockGraph part = part_of(graph, near);
-  std::vector<idx_t> part_work;
+  std::vector<double> part_work;
   for (const LocalIndex block : near) part_work.push_back(work[block]);
   const std::vector<int> mapped = metis_ranks(part, part_work, ranks);
   std::vector<int> rank_of_block(work.size(), 0);
@@ -116,8 +122,7 @@ std::vector<int> map_blocks(BlockGraph& graph, const std::vector<LocalIndex>& wo
 }
 
 /// A part without a block gets the lightest one of a rank that has several.
-void leave_nobody_empty(std::vector<int>& rank_of_block, const std::vector<LocalIndex>& work,
-                        int ranks)
+void leave_nobody_empty(std::vector<int>& rank_of_block, const std::vector<double>& work, int ranks)
 {
   std::vector<int> blocks(ranks, 0);
   for (const int rank : rank_of_block) ++blocks[rank];

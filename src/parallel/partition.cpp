@@ -17,7 +17,7 @@ template <int Dim>
 void keep_owners(std::vector<int>& rank_of_block, int ranks, const BlockWork<Dim>& blocks,
                  const Ownership<Dim>& before)
 {
-  std::map<std::pair<int, int>, GlobalIndex> common;  // part, owner before -> work
+  std::map<std::pair<int, int>, double> common;  // part, owner before -> work
   for (std::size_t block = 0; block < rank_of_block.size(); ++block) {
     IndexVec<Dim> cell;
     LocalIndex rest = LocalIndex(block);
@@ -27,7 +27,7 @@ void keep_owners(std::vector<int>& rank_of_block, int ranks, const BlockWork<Dim
     }
     common[{rank_of_block[block], before.owner_of_cell(cell)}] += blocks.work[block];
   }
-  std::vector<std::pair<GlobalIndex, std::pair<int, int>>> by_work;
+  std::vector<std::pair<double, std::pair<int, int>>> by_work;
   for (const auto& [pair, work] : common) by_work.push_back({-work, pair});
   std::ranges::sort(by_work);
   std::vector<int> rank_of_part(ranks, -1);

@@ -25,28 +25,27 @@ WorkMap<Dim>::WorkMap(const GridGeometry<Dim>& geometry, int ranks)
          blocks_per_rank * ranks)
     blocks_.cells_per_edge *= 2;
   blocks_.blocks = blocks_of(blocks_.cells_per_edge);
-  blocks_.work.assign(blocks_.blocks.prod(), 0);
+  blocks_.work.assign(blocks_.blocks.prod(), 0.0);
   for (int d = 0; d < Dim; ++d) layers_[d].assign(geometry.nodes[d], 0.0);
 }
 
 template <int Dim>
-void WorkMap<Dim>::add(const IndexVec<Dim>& cell)
+void WorkMap<Dim>::add(const IndexVec<Dim>& cell, double work)
 {
   LocalIndex block = 0;
   for (int d = Dim; d-- > 0;) {
     const LocalIndex at = std::clamp(cell[d], 0, LocalIndex(layers_[d].size()) - 1);
-    layers_[d][at] += 1;
+    layers_[d][at] += work;
     block = block * blocks_.blocks[d] + at / blocks_.cells_per_edge;
   }
-  ++blocks_.work[block];
+  blocks_.work[block] += work;
 }
 
 template <int Dim>
 void WorkMap<Dim>::sum_over_ranks(MPI_Comm comm)
 {
   for (std::vector<double>& layers : layers_) mpm::sum_over_ranks(comm, layers);
-  MPI_Allreduce(MPI_IN_PLACE, blocks_.work.data(), int(blocks_.work.size()), MPI_INT32_T, MPI_SUM,
-                comm);
+  mpm::sum_over_ranks(comm, blocks_.work);
 }
 
 double imbalance_of(const std::vector<double>& loads)

@@ -34,7 +34,7 @@ struct Options {
     app.add_option("scene", command_line.scene, "Scene file (YAML)");
     app.add_flag("--check", command_line.check, "Read the scene, print the plan, run nothing");
     app.add_option("--ranks", command_line.ranks,
-                   "With --check: balance and messages on so many ranks, without running on them")
+                   "With the plan: balance and messages on so many ranks, without running on them")
         ->type_name("P[,P...]")
         ->delimiter(',')
         ->check(CLI::Range(1, 1 << 20))

@@ -11,6 +11,11 @@ constexpr double bound = 1.05;
 constexpr int checks_in_a_row = 3;
 /// Steps until the next attempt after one that did not pay.
 constexpr GlobalIndex steps_of_patience = 500;
+/// Share of the latest check in the smoothed cost of a particle, and how far that may be from the
+/// mean: on a rank with few particles the nodes cost more than they do.
+constexpr double newest = 0.2, largest_cost = 1.5;
+/// Costs are compared while no rank has more than so many times the mean's particles.
+constexpr double comparable = 1.1;
 /// Steps that a gain is counted for at least.
 constexpr GlobalIndex shortest_horizon = 1000;
 
@@ -26,23 +31,32 @@ void for_each_cell_of(const Stepper<Dim>& stepper, Visit visit)
     }
 }
 
+template <int Dim>
+struct Choice {
+  Partition<Dim> next;
+  double imbalance_now;  ///< of the same loads under the present map
+};
+
 /// What the present particles ask for. Collective.
 template <int Dim>
-Partition<Dim> present_choice(const Stepper<Dim>& stepper, const PartitionRules<Dim>& rules)
+Choice<Dim> present_choice(const Stepper<Dim>& stepper, const PartitionRules<Dim>& rules,
+                           double particle_cost)
 {
   const Decomposition<Dim>& now = stepper.decomposition();
   WorkMap<Dim> work(now.geometry(), now.ranks());
-  for_each_cell_of(stepper, [&](const IndexVec<Dim>& cell) { work.add(cell); });
+  for_each_cell_of(stepper, [&](const IndexVec<Dim>& cell) { work.add(cell, particle_cost); });
   work.sum_over_ranks(now.comm());
   const auto loads_under = [&](const Ownership<Dim>& ownership) {
     std::vector<double> loads(ownership.ranks(), 0.0);
-    for_each_cell_of(stepper,
-                     [&](const IndexVec<Dim>& cell) { loads[ownership.owner_of_cell(cell)] += 1; });
+    for_each_cell_of(stepper, [&](const IndexVec<Dim>& cell) {
+      loads[ownership.owner_of_cell(cell)] += particle_cost;
+    });
     sum_over_ranks(now.comm(), loads);
     return loads;
   };
-  return choose_partition<Dim>(now.geometry(), now.ranks(), rules, work, loads_under,
-                               &now.ownership());
+  return {choose_partition<Dim>(now.geometry(), now.ranks(), rules, work, loads_under,
+                                &now.ownership()),
+          imbalance_of(loads_under(now.ownership()))};
 }
 
 }  // namespace
@@ -51,13 +65,28 @@ template <int Dim>
 void LoadBalance<Dim>::look(Stepper<Dim>& stepper)
 {
   if (stepper.decomposition().ranks() == 1) return;
-  if (stepper.steps() % Stepper<Dim>::steps_between_checks == 0) {
-    imbalance_sum_ += stepper.agreed().imbalance();
-    ++checks_;
-  }
+  if (stepper.steps() % Stepper<Dim>::steps_between_checks == 0) observe(stepper);
   if (!is_due(stepper)) return;
   checks_above_ = 0;
   if (!move_borders(stepper)) not_before_ = stepper.steps() + steps_of_patience;
+}
+
+template <int Dim>
+void LoadBalance<Dim>::observe(const Stepper<Dim>& stepper)
+{
+  const typename Stepper<Dim>::Agreed& agreed = stepper.agreed();
+  imbalance_sum_ += agreed.imbalance();
+  work_sum_ += agreed.work_imbalance();
+  ++checks_;
+  if (interval_ > 0) return;
+  if (agreed.imbalance() > comparable || stepper.particles() == 0) {
+    particle_cost_ = 1;
+    return;
+  }
+  const double own = agreed.own_seconds / stepper.particles();
+  const double mean = agreed.mean_seconds / agreed.mean_particles;
+  const double cost = std::clamp(own / mean, 1 / largest_cost, largest_cost);
+  particle_cost_ += newest * (cost - particle_cost_);
 }
 
 template <int Dim>
@@ -65,9 +94,7 @@ bool LoadBalance<Dim>::is_due(const Stepper<Dim>& stepper)
 {
   if (interval_ > 0) return stepper.steps() % interval_ == 0;
   if (stepper.steps() % Stepper<Dim>::steps_between_checks != 0) return false;
-  const typename Stepper<Dim>::Agreed& agreed = stepper.agreed();
-  const bool above = agreed.busiest_seconds > bound * agreed.mean_seconds;
-  checks_above_ = above ? checks_above_ + 1 : 0;
+  checks_above_ = stepper.agreed().work_imbalance() > bound ? checks_above_ + 1 : 0;
   return checks_above_ >= checks_in_a_row && stepper.steps() >= not_before_;
 }
 
@@ -76,18 +103,18 @@ bool LoadBalance<Dim>::move_borders(Stepper<Dim>& stepper)
 {
   const MPI_Comm comm = stepper.decomposition().comm();
   const double start = MPI_Wtime();
-  const Partition<Dim> next = present_choice(stepper, rules_);
+  const Choice<Dim> choice = present_choice(stepper, rules_, particle_cost_);
   if (interval_ == 0) {
     const typename Stepper<Dim>::Agreed& agreed = stepper.agreed();
-    const double fullest = *std::ranges::max_element(next.loads);
-    const double saved = agreed.busiest_seconds / double(agreed.steps) *
-                         (1 - fullest / double(agreed.most_particles));
+    const double saved = (choice.imbalance_now - choice.next.imbalance()) * agreed.mean_seconds /
+                         double(agreed.steps);
     const GlobalIndex horizon = std::max(shortest_horizon, stepper.steps() - last_);
     if (saved <= 0 || saved * double(horizon) < cost_) return false;
   }
-  stepper.repartition(next.ownership);
+  stepper.repartition(choice.next.ownership);
   cost_ = largest_over_ranks(comm, MPI_Wtime() - start);
   last_ = stepper.steps();
+  particle_cost_ = 1;  // others' particles are here now
   ++repartitions_;
   return true;
 }

@@ -230,6 +230,7 @@ class Run {
     summary.set("bytes_per_step", cooperation.bytes_per_step);
     summary.set("imbalance", cooperation.imbalance);
     summary.set("mean_imbalance", balance_.mean_imbalance());
+    summary.set("mean_work_imbalance", balance_.mean_work_imbalance());
     summary.set("waiting_seconds", cooperation.waiting_seconds);
     summary.set("energy_error", last.energy_error);
     double largest_error = 0;

@@ -1,26 +1,12 @@
 #include <mpm/core/error.hpp>
 #include <mpm/parallel/redistribution.hpp>
-#include <mpm/parallel/session.hpp>
 #include <mpm/simulation/stepper.hpp>
 
 #include <algorithm>
-#include <array>
-#include <limits>
-#include <numeric>
-
-#include <fmt/format.h>
 
 namespace mpm {
 
 namespace {
-
-/// Particles cross a cell in hundreds of steps; sorting costs about as much as a third of a step.
-constexpr int steps_between_sorts = 50;
-/// Activity and nearness are marked one node wide of the particles' stencils: sort before they can
-/// leave that.
-constexpr double cells_between_sorts = 0.5;
-/// Blocks between two looks after the messages.
-constexpr LocalIndex blocks_between_looks = 2048 / lane_count;
 
 template <int Dim>
 NodeGrid<Dim> local_grid(const Decomposition<Dim>& decomposition, int support, double mass_cut)
@@ -197,136 +183,6 @@ template <int Dim>
 void Stepper<Dim>::constrain_gradient(double dt)
 {
   for (const auto& condition : conditions_) condition->constrain_gradient(grid_, time_, dt);
-}
-
-template <int Dim>
-void Stepper<Dim>::visit_near(const PartVisit& visit)
-{
-  if (loss_) return;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    visit({bodies_[b], 0, orders_[b].near_end}, b);
-    visit({bodies_[b], orders_[b].rest, bodies_[b].particles.blocks()}, b);
-  }
-}
-
-template <int Dim>
-void Stepper<Dim>::visit_interior(const PartVisit& visit)
-{
-  if (loss_) return;
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    for (LocalIndex first = orders_[b].near_end; first < orders_[b].rest;
-         first += blocks_between_looks) {
-      visit({bodies_[b], first, std::min(first + blocks_between_looks, orders_[b].rest)}, b);
-      halo_.advance();
-    }
-}
-
-template <int Dim>
-void Stepper<Dim>::collect_sums()
-{
-  MPM_ASSERT(loss_ || halo_.untouched(grid_));
-  busy_.stop();
-  halo_.end(grid_);
-  busy_.start();
-}
-
-template <int Dim>
-void Stepper<Dim>::pass_and_sum(NodeSum sum, const std::function<void(const BodyPart<Dim>&)>& pass)
-{
-  const auto visit = [&](const BodyPart<Dim>& part, std::size_t) { pass(part); };
-  visit_near(visit);
-  halo_.begin(sum, grid_);
-  visit_interior(visit);
-  collect_sums();
-}
-
-template <int Dim>
-void Stepper<Dim>::move_and_sum(NodeSum sum, double dt,
-                                const std::function<MoveOutcome<Dim>(const BodyPart<Dim>&)>& pass)
-{
-  largest_speed_ = 0;
-  std::vector<std::optional<LostParticle<Dim>>> lost(bodies_.size());
-  const auto visit = [&](const BodyPart<Dim>& part, std::size_t body) {
-    const MoveOutcome<Dim> outcome = pass(part);
-    largest_speed_ = std::max(largest_speed_, outcome.largest_speed);
-    if (outcome.lost && !lost[body]) lost[body] = outcome.lost;
-  };
-  visit_near(visit);
-  collect_leavers();
-  halo_.begin(sum, grid_, migration_.notes());
-  visit_interior(visit);
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    if (lost[b]) note_loss(b, *lost[b]);
-  collect_sums();
-  exchange_leavers();
-
-  moved_since_sort_ += largest_speed_ * dt;
-  ++steps_since_sort_;
-  if (steps_since_sort_ >= steps_between_sorts ||
-      moved_since_sort_ > cells_between_sorts * grid_.geometry().smallest_spacing())
-    sort_and_activate();
-}
-
-/// Only particles near other ranks can leave.
-template <int Dim>
-void Stepper<Dim>::collect_leavers()
-{
-  if (halo_.shared_nodes().empty()) return;
-  std::vector<std::pair<std::size_t, LocalIndex>> astray;
-  visit_near([&](const BodyPart<Dim>& part, std::size_t body) {
-    if (const auto particle = migration_.collect(part, body)) astray.push_back({body, *particle});
-  });
-  for (const auto& [body, particle] : astray) note_loss(body, strayed(body, particle));
-  migration_.send();
-}
-
-template <int Dim>
-void Stepper<Dim>::exchange_leavers()
-{
-  if (halo_.shared_nodes().empty()) return;
-  const auto outcome = migration_.finish(bodies_, halo_.notes());
-  counters_.migrated += outcome.sent;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    Order& order = orders_[b];
-    // What stays in the interior is interior: gaps are in other blocks, and filled from the end.
-    order.rest = std::min(order.rest, outcome.stayed[b] / lane_count);
-    order.near_end = std::min(order.near_end, order.rest);
-  }
-}
-
-template <int Dim>
-void Stepper<Dim>::sort_and_activate()
-{
-  grid_.begin_activity();
-  orders_.resize(bodies_.size());
-  for (std::size_t b = 0; b < bodies_.size(); ++b) sort(b, near_);
-  grid_.end_activity(transfer_->support());
-  moved_since_sort_ = 0;
-  steps_since_sort_ = 0;
-}
-
-/// Those near other ranks first, and both parts by the first node of the stencil.
-template <int Dim>
-void Stepper<Dim>::sort(std::size_t body, const std::vector<char>& near)
-{
-  ParticleStore& particles = bodies_[body].particles;
-  transfer_->first_nodes(particles, grid_, first_nodes_);
-  const LocalIndex nodes = grid_.size();
-  counts_.assign(2 * std::size_t(nodes) + 1, 0);
-  for (LocalIndex& key : first_nodes_) {
-    grid_.touch(key);
-    if (!near[key]) key += nodes;
-    ++counts_[key + 1];
-  }
-  std::partial_sum(counts_.begin(), counts_.end(), counts_.begin());
-  orders_[body].near_end = (counts_[nodes] + lane_count - 1) / lane_count;
-  orders_[body].rest = std::max(orders_[body].near_end, particles.size() / lane_count);
-  if (std::ranges::is_sorted(first_nodes_)) return;
-  order_.resize(first_nodes_.size());
-  for (std::size_t p = 0; p < first_nodes_.size(); ++p)
-    order_[counts_[first_nodes_[p]]++] = LocalIndex(p);
-  particles.permute(order_);
-  particles.seal();
 }
 
 template class Stepper<2>;

@@ -64,9 +64,14 @@ void Stepper<Dim>::check()
   std::array<double, 2> mean{busy_.seconds(), double(particles())};
   sum_over_ranks(comm, mean);
   for (double& value : mean) value /= decomposition_.ranks();
-  agreed_ = {largest[0], largest[1],        largest[2],
-             mean[0],    steps_ - checked_, GlobalIndex(largest[3]),
-             mean[1]};
+  agreed_.largest_speed = largest[0];
+  agreed_.wave_speed = largest[1];
+  agreed_.busiest_seconds = largest[2];
+  agreed_.mean_seconds = mean[0];
+  agreed_.own_seconds = busy_.seconds();
+  agreed_.steps = steps_ - checked_;
+  agreed_.most_particles = GlobalIndex(largest[3]);
+  agreed_.mean_particles = mean[1];
   busy_.clear();
   checked_ = steps_;
 }

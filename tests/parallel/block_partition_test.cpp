@@ -42,7 +42,7 @@ TEST(BlockPartition, BalancesWorkThatFillsHalfOfTheGrid)
 
 TEST(BlockPartition, TwoRanksShareAboutOneRowOfNodes)
 {
-  BlockWork<2> blocks{IndexVec<2>(20, 10), 4, std::vector<LocalIndex>(200, 16)};
+  BlockWork<2> blocks{IndexVec<2>(20, 10), 4, std::vector<double>(200, 16)};
   const BlockPartition partition = partition_blocks(blocks, 2);
   // The best cut crosses the short way: 10 blocks of 4 nodes; METIS may need a step in it.
   EXPECT_GE(partition.cut_nodes, 40);
@@ -59,7 +59,7 @@ TEST(BlockPartition, OneRankOwnsEverythingAndCutsNothing)
 
 TEST(BlockPartition, WorksOnBlocksInSpace)
 {
-  BlockWork<3> blocks{IndexVec<3>(8, 8, 8), 4, std::vector<LocalIndex>(512, 8)};
+  BlockWork<3> blocks{IndexVec<3>(8, 8, 8), 4, std::vector<double>(512, 8)};
   const BlockPartition partition = partition_blocks(blocks, 8);
   EXPECT_LT(partition.imbalance, 1.05);
   // Eight cubes of 4 x 4 x 4 blocks cut 3 planes of 64 faces with 16 nodes; half as much again

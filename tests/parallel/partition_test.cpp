@@ -154,6 +154,11 @@ TEST(LoadBalance, BordersFollowTheWorkAndStayWhereNothingIsGained)
   BlockRun run({MPI_COMM_WORLD, grid, {0, 0}, {}, {}},
                {ShapeKind::gimp, SchemeKind::flip, UpdateOrderKind::musl},
                {{{4, 4}, {30, 30}, {1, 1}}}, {});
+  run.stepper().step(1e-9);
+  run.stepper().check();
+  if (ranks() > 1) {
+    EXPECT_GE(run.stepper().agreed().imbalance(), 2.0);
+  }
   LoadBalance<2> balance({}, 0);
   for (int step = 0; step < 400; ++step) {
     run.stepper().step(0.4 * cell / run.stepper().bodies().front().law->wave_speed());
@@ -169,8 +174,9 @@ TEST(LoadBalance, BordersFollowTheWorkAndStayWhereNothingIsGained)
   loads[rank_of(MPI_COMM_WORLD)] = run.stepper().particles();
   sum_over_ranks(MPI_COMM_WORLD, loads);
   EXPECT_EQ(std::accumulate(loads.begin(), loads.end(), 0.0), 4 * 30 * 30);
-  // A layer of cells or a block more than the mean; an even cut begins with 2 or more.
-  EXPECT_LT(imbalance_of(loads), 1.1);
+  // An even cut begins with 2 or more. What a particle costs is measured, so that the numbers of
+  // particles need not become equal: by no more than the slowest check could claim.
+  EXPECT_LT(imbalance_of(loads), 1.3);
 }
 
 }  // namespace

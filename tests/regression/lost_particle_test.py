@@ -10,9 +10,10 @@ LOST = re.compile(r"particle (\d+) of body 'cell_wall' left the grid at "
 
 
 class LostParticle(ProgramTest):
-    def lost(self, ranks):
-        folder = self.folder / f"on_{ranks}"
-        run = mpm_par(scene("fast_disc"), "--output", folder, ranks=ranks)
+    def lost(self, ranks, decomposition="cuts"):
+        folder = self.folder / f"on_{ranks}_{decomposition}"
+        run = mpm_par(scene("fast_disc"), "--output", folder, "--set",
+                      f"numerics.decomposition={decomposition}", ranks=ranks)
         self.assertEqual(run.returncode, 3, run.stderr)
         found = LOST.findall(run.stderr)
         self.assertEqual(len(found), 1, run.stderr)
@@ -41,8 +42,9 @@ class LostParticle(ProgramTest):
 
     def test_on_one_and_two_ranks_alike(self):
         alone = self.lost(1)
-        both = self.lost(2)
-        self.assertEqual(alone[3:5], both[3:5], "step and time")
+        for decomposition in "cuts", "metis":
+            both = self.lost(2, decomposition)
+            self.assertEqual(alone[3:5], both[3:5], "step and time")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ template <int Dim>
 struct BlockWork {
   IndexVec<Dim> blocks;       ///< per axis
   LocalIndex cells_per_edge;  ///< of a block
-  std::vector<LocalIndex> work;
+  std::vector<double> work;
 };
 
 struct BlockPartition {

@@ -24,11 +24,11 @@ struct PartitionRules {
 template <int Dim>
 struct Partition {
   Ownership<Dim> ownership;
-  std::vector<double> loads;  ///< particles of each rank
+  std::vector<double> loads;  ///< work of each rank
   double imbalance() const { return imbalance_of(loads); }
 };
 
-/// Particles of each rank under a map of owners, all ranks' summed.
+/// Work of each rank under a map of owners, all ranks' summed.
 template <int Dim>
 using LoadsUnder = std::function<std::vector<double>(const Ownership<Dim>&)>;
 

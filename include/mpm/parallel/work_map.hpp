@@ -8,14 +8,14 @@
 
 namespace mpm {
 
-/// Particles per cell layer along each axis, and per block of cells.
+/// Work per cell layer along each axis, and per block of cells.
 template <int Dim>
 class WorkMap {
  public:
   /// Blocks are small enough for a balanced partition on so many ranks.
   WorkMap(const GridGeometry<Dim>& geometry, int ranks);
 
-  void add(const IndexVec<Dim>& cell);
+  void add(const IndexVec<Dim>& cell, double work = 1);
   /// Collective.
   void sum_over_ranks(MPI_Comm comm);
 

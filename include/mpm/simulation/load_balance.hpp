@@ -6,9 +6,9 @@
 
 namespace mpm {
 
-/// Measured: the time each rank works without waiting. The borders move when the busiest rank has
-/// been above the mean by more than a bound in several checks, and when what that promises to save
-/// until the next time exceeds what the last time cost.
+/// Measured: the time each rank works without waiting, and from it what a particle costs there. The
+/// borders move when the busiest rank has been above the mean by more than a bound in several
+/// checks, and when what that promises to save until the next time exceeds what the last time cost.
 template <int Dim>
 class LoadBalance {
  public:
@@ -24,8 +24,11 @@ class LoadBalance {
   GlobalIndex repartitions() const { return repartitions_; }
   /// Particles of the fullest rank over the mean, averaged over the checks.
   double mean_imbalance() const { return checks_ > 0 ? imbalance_sum_ / double(checks_) : 1.0; }
+  /// The same of the time of work.
+  double mean_work_imbalance() const { return checks_ > 0 ? work_sum_ / double(checks_) : 1.0; }
 
  private:
+  void observe(const Stepper<Dim>& stepper);
   bool is_due(const Stepper<Dim>& stepper);
   /// Returns whether the borders have moved.
   bool move_borders(Stepper<Dim>& stepper);
@@ -36,9 +39,10 @@ class LoadBalance {
   GlobalIndex last_ = 0;        ///< step of the last repartition
   GlobalIndex not_before_ = 0;  ///< step of the next attempt, after one that promised too little
   int checks_above_ = 0;        ///< in a row
+  double particle_cost_ = 1;    ///< of this rank over the mean, smoothed
   double cost_ = 0;             ///< s, of the last repartition
   GlobalIndex checks_ = 0;
-  double imbalance_sum_ = 0;
+  double imbalance_sum_ = 0, work_sum_ = 0;
 };
 
 }  // namespace mpm

@@ -52,10 +52,15 @@ class Stepper {
     double wave_speed = 0;     ///< m/s, of the fastest wave in the particles as they are
     /// Time of work, without waiting, since the check before: of the busiest rank, and the mean.
     double busiest_seconds = 0, mean_seconds = 0;
-    GlobalIndex steps = 0;  ///< since the check before
+    double own_seconds = 0;  ///< this rank's
+    GlobalIndex steps = 0;   ///< since the check before
     GlobalIndex most_particles = 0;
     double mean_particles = 0;
 
+    double work_imbalance() const
+    {
+      return mean_seconds > 0 ? busiest_seconds / mean_seconds : 1.0;
+    }
     /// Particles of the fullest rank over the mean.
     double imbalance() const { return mean_particles > 0 ? most_particles / mean_particles : 1.0; }
   };
