@@ -71,6 +71,11 @@ History::History(const std::filesystem::path& folder, const Stepper<2>& stepper,
   start_ = sum_particles(comm_, stepper.bodies());
 }
 
+void History::before_line(const Stepper<2>& stepper)
+{
+  stress_work_before_ = sum_particles(comm_, stepper.bodies()).stress_work();
+}
+
 void History::observe(const Stepper<2>& stepper)
 {
   if (!apparatus_ || apparatus_->load_cell_body < 0) return;
@@ -120,9 +125,15 @@ const HistoryLine& History::record(const Stepper<2>& stepper, double dt)
     count_outside(stepper, line);
   }
   last_time_ = line.time;
-  const double surplus = line.sums.kinetic_energy + line.sums.elastic_energy +
-                         line.sums.plastic_work - line.external_work - start_.kinetic_energy -
-                         start_.elastic_energy;
+  // Velocities, and with them kinetic energy and external work, stand half a step before the
+  // stresses that the step leaves, with USF half a step after them (leap-frog): the work of the
+  // stresses is taken there, or the balance would be off by half a step's work.
+  const double stress_work = line.sums.stress_work();
+  const double half_step = 0.5 * (stress_work - stress_work_before_.value_or(stress_work));
+  stress_work_before_.reset();
+  const double surplus = line.sums.kinetic_energy + stress_work +
+                         (stepper.order() == UpdateOrderKind::usf ? half_step : -half_step) -
+                         line.external_work - start_.kinetic_energy - start_.stress_work();
   const double scale = std::max(std::abs(line.external_work), start_.kinetic_energy);
   line.energy_error = scale > 0 ? surplus / scale : 0;
   const double pushes = impulse_size_ + start_.momentum.norm();

@@ -88,10 +88,14 @@ class Run {
         dt = layout_.cfl * layout_.geometry.smallest_spacing() / (wave + speed);
       }
       const double last = std::min(dt, end_ - stepper_.time());
+      const bool line_due =
+          stepper_.time() + last >= double(next_line) * line_interval * (1 - 1e-12) ||
+          finished_at(stepper_.time() + last, stepper_.steps() + 1);
+      if (line_due) history_.before_line(stepper_);
       stepper_.step(last);
       balance_.look(stepper_);
       history_.observe(stepper_);
-      if (stepper_.time() >= double(next_line) * line_interval * (1 - 1e-12) || finished()) {
+      if (line_due) {
         stepper_.check();
         const HistoryLine& line = history_.record(stepper_, last);
         next_line = std::size_t(stepper_.time() / line_interval * (1 + 1e-12)) + 1;
@@ -105,10 +109,11 @@ class Run {
   }
 
  private:
-  bool finished() const
+  bool finished() const { return finished_at(stepper_.time(), stepper_.steps()); }
+
+  bool finished_at(double time, GlobalIndex steps) const
   {
-    return stepper_.time() >= end_ * (1 - 1e-12) ||
-           (scene_.steps && stepper_.steps() >= *scene_.steps);
+    return time >= end_ * (1 - 1e-12) || (scene_.steps && steps >= *scene_.steps);
   }
 
   void write_due_snapshots()

@@ -13,6 +13,9 @@ struct ParticleSums {
   double elastic_energy = 0;         ///< J
   double plastic_work = 0;           ///< J
   Vec<2> momentum = Vec<2>::Zero();  ///< kg m/s
+
+  /// Work of the stresses, stored or dissipated, J.
+  double stress_work() const { return elastic_energy + plastic_work; }
 };
 
 /// Over all ranks. Collective.

@@ -21,7 +21,9 @@ struct HistoryLine {
   double load_cell_stress = 0;  ///< Pa, where there is a load cell
   ParticleSums sums;
   double external_work = 0;  ///< J, of all conditions
-  double energy_error = 0;   ///< what is too much in the energy balance / external work
+  /// What is too much in the energy balance, all of it at the moment of the velocities, / external
+  /// work.
+  double energy_error = 0;
   /// |momentum gained - impulse of all conditions| / (sum of the impulses' sizes + momentum at
   /// the start): rounding, unless something is lost.
   double momentum_error = 0;
@@ -39,6 +41,9 @@ class History {
   History(const std::filesystem::path& folder, const Stepper<2>& stepper,
           std::vector<BoundaryCondition<2>*> conditions, std::optional<Apparatus> apparatus);
 
+  /// Before the step that a line is recorded after: the energy balance needs both sides of it.
+  /// Collective.
+  void before_line(const Stepper<2>& stepper);
   /// After every step: the load cell's reading goes into the mean.
   void observe(const Stepper<2>& stepper);
   /// Measures, checks and writes a line. Collective. Throws NumericalError on every rank if
@@ -60,6 +65,7 @@ class History {
   std::unique_ptr<output::HistoryFile> file_;  ///< rank 0
   std::vector<HistoryLine> lines_;
   ParticleSums start_;
+  std::optional<double> stress_work_before_;  ///< J, before the last step
   double external_work_ = 0;
   Vec<2> impulse_ = Vec<2>::Zero();  ///< N s, of all conditions
   double impulse_size_ = 0;          ///< N s, sum of the sizes

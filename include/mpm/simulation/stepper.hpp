@@ -70,6 +70,7 @@ class Stepper {
   /// rank sent. Collective; between steps.
   GlobalIndex repartition(const Ownership<Dim>& ownership);
 
+  UpdateOrderKind order() const { return setup_.order; }
   double time() const { return time_; }
   GlobalIndex steps() const { return steps_; }
   std::vector<Body<Dim>>& bodies() { return bodies_; }
