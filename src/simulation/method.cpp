@@ -33,7 +33,7 @@ double default_cfl(const scene::Numerics& numerics)
 {
   if (numerics.cfl) return *numerics.cfl;
   // The noise of particles that cross cells with linear functions grows below the limit.
-  const double share = numerics.shape_function == scene::ShapeFunction::linear ? 0.42 : 0.8;
+  const double share = numerics.shape_function == scene::ShapeFunction::linear ? 0.42 : 0.9;
   return share * stable_cfl(numerics);
 }
 

@@ -11,11 +11,10 @@ namespace mpm {
 
 namespace {
 
-/// Particles cross a cell in hundreds of steps; sorting costs about as much as a third of a step.
+/// Particles cross a cell in hundreds of steps; sorting costs about as much as one step.
 constexpr int steps_between_sorts = 50;
-/// Activity and nearness are marked one node wide of the particles' stencils: sort before they can
-/// leave that.
-constexpr double cells_between_sorts = 0.5;
+/// Activity and nearness are marked one node wide of the particles' stencils.
+constexpr double cells_between_sorts = 1;
 /// Blocks between two looks after the messages.
 constexpr LocalIndex blocks_between_looks = 2048 / lane_count;
 
@@ -86,10 +85,12 @@ void Stepper<Dim>::move_and_sum(NodeSum sum, double dt,
   collect_sums();
   exchange_leavers();
 
-  moved_since_sort_ += largest_speed_ * dt;
+  const double moved = largest_speed_ * dt;
+  moved_since_sort_ += moved;
   ++steps_since_sort_;
+  // The next step may take a particle twice as far as this one.
   if (steps_since_sort_ >= steps_between_sorts ||
-      moved_since_sort_ > cells_between_sorts * grid_.geometry().smallest_spacing())
+      moved_since_sort_ + 2 * moved > cells_between_sorts * grid_.geometry().smallest_spacing())
     sort_and_activate();
 }
 
