@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures what mpm_par costs and compares with the last release.
 
-    python3 tests/performance/benchmark.py                 everything, about 25 minutes
+    python3 tests/performance/benchmark.py                 everything, about an hour
     python3 tests/performance/benchmark.py --quick         a minute: does it all still run?
     python3 tests/performance/benchmark.py --only wood     one group
     python3 tests/performance/benchmark.py --store 1.0.0   keep as that release's table, and write

@@ -57,19 +57,29 @@ def measure_blocks(build, repeat, quick):
     return rows
 
 
-def measure_wood(build, _repeat, quick):
-    """Full runs, from first to last step: one sample of each, because they take minutes."""
+def measure_wood(build, repeat, quick):
+    """Full runs, from first to last step, as shipped and with the functions that bear the longest
+    step; on one rank and on two in turn, so that what else the machine does meets both."""
     rows = []
-    loblolly, ponderosa = WOOD / "loblolly_radial.yaml", WOOD / "ponderosa_tangential.yaml"
-    cases = [(loblolly, 1), (loblolly, 2), (ponderosa, 2)]
-    settings = ["steps=500"] if quick else []
-    for scene, ranks in cases[:1] if quick else cases:
-        result = one_run(build, scene, settings, ranks)
-        name = f"{scene.stem}{', first 500 steps' if quick else ''}, {ranks} rank{'s'[:ranks > 1]}"
-        rows.append(figure(f"{name}: loop", [result["loop_seconds"]], "s"))
-        rows.append(figure(f"{name}: whole program", [result["seconds"]], "s"))
-        rows.append(figure(f"{name}: per step", [result["ns_per_particle_step"]],
-                           "ns/particle/step x ranks"))
+    steps = ["steps=500"] if quick else []
+    for scene in ("loblolly_radial",) if quick else ("loblolly_radial", "ponderosa_tangential"):
+        for shape in ("gimp", "quadratic"):
+            settings = [f"numerics.shape_function={shape}", *steps]
+            pairs = [[one_run(build, WOOD / f"{scene}.yaml", settings, ranks) for ranks in (1, 2)]
+                     for _ in range(repeat)]
+            name = f"{scene}, {shape}{', first 500 steps' * quick}"
+            for ranks, results in zip((1, 2), zip(*pairs)):
+                label = f"{name}, {ranks} rank{'s'[:ranks > 1]}"
+                rows += [figure(f"{label}: loop", each(results, "loop_seconds"), "s"),
+                         figure(f"{label}: whole program", each(results, "seconds"), "s"),
+                         figure(f"{label}: per step", each(results, "ns_per_particle_step"),
+                                "ns/particle/step x ranks")]
+            rows += [figure(f"{name}: speed-up on 2 ranks",
+                            [one["loop_seconds"] / two["loop_seconds"] for one, two in pairs], "1",
+                            "ratio"),
+                     figure(f"{name}: steps", [pairs[0][0]["steps"]], "1", "count"),
+                     figure(f"{name}: largest energy error",
+                            [100 * pairs[0][0]["largest_energy_error"]], "%", "count")]
     return rows
 
 
