@@ -37,7 +37,7 @@ void ColumnGroup::copy_particle(LocalIndex from, LocalIndex to)
   for (int c = 0; c < width_; ++c) (*this)(c, to) = (*this)(c, from);
 }
 
-void ColumnGroup::permute(std::span<const LocalIndex> order)
+void ColumnGroup::permute(std::span<const LocalIndex> order, std::vector<double>& scratch)
 {
   // A few columns at a time: their lines stay in the nearest cache from the first particle of a
   // block to the last, and what is kept beside the store stays small.
@@ -47,15 +47,15 @@ void ColumnGroup::permute(std::span<const LocalIndex> order)
   };
   for (int first = 0; first < width_; first += together) {
     const int columns = std::min(together, width_ - first);
-    scratch_.resize(order.size() * columns);
+    scratch.resize(order.size() * columns);
     const double* from = data_.data() + std::size_t(first) * lane_count;
     for (std::size_t k = 0; k < order.size(); ++k)
       for (int c = 0; c < columns; ++c)
-        scratch_[k * columns + c] = from[place(order[k]) + c * lane_count];
+        scratch[k * columns + c] = from[place(order[k]) + c * lane_count];
     double* to = data_.data() + std::size_t(first) * lane_count;
     for (std::size_t k = 0; k < order.size(); ++k)
       for (int c = 0; c < columns; ++c)
-        to[place(LocalIndex(k)) + c * lane_count] = scratch_[k * columns + c];
+        to[place(LocalIndex(k)) + c * lane_count] = scratch[k * columns + c];
   }
 }
 
@@ -126,8 +126,8 @@ void ParticleStore::erase(std::span<const LocalIndex> particles)
 
 void ParticleStore::permute(std::span<const LocalIndex> order)
 {
-  motion_.permute(order);
-  state_.permute(order);
+  motion_.permute(order, scratch_);
+  state_.permute(order, scratch_);
   std::vector<GlobalIndex> ids(ids_.size());
   for (std::size_t k = 0; k < order.size(); ++k) ids[k] = ids_[order[k]];
   ids_ = std::move(ids);

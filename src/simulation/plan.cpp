@@ -148,7 +148,9 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
   for (const std::string& what : left_out(scene)) absent += (absent.empty() ? "" : ", ") + what;
   line("left out", absent.empty() ? "nothing" : absent);
   line("time step", fmt::format("{:.4g} s (CFL {:.3g})", dt, layout.cfl));
-  line("steps", fmt::format("{:.0f} to t = {:.4g} s", steps, steps * dt));
+  // Compression makes waves faster and steps shorter on the way.
+  line("steps", scene.steps ? fmt::format("{:.0f}, to t = {:.4g} s at most", steps, steps * dt)
+                            : fmt::format("at least {:.0f}, to t = {:.4g} s", steps, steps * dt));
   line("ranks", ranks_text(scene, specimen, layout, decomposition.ownership()));
   line("memory", fmt::format("{:.0f} B per particle, {:.0f} B per node, {} in all",
                              bytes_per_particle, bytes_per_node,

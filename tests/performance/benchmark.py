@@ -4,6 +4,8 @@
     python3 tests/performance/benchmark.py                 everything, about an hour
     python3 tests/performance/benchmark.py --quick         a minute: does it all still run?
     python3 tests/performance/benchmark.py --only wood     one group
+    python3 tests/performance/benchmark.py --resume        only what an interrupted run of the same
+                                                           program left out
     python3 tests/performance/benchmark.py --store 1.0.0   keep as that release's table, and write
                                                            docs/performance.md
 
@@ -21,6 +23,7 @@ import growth
 import kernels
 import report
 import scenes
+import studies
 import table as tables
 from measuring import PROJECT, Build, RunFailed, load, machine
 
@@ -29,6 +32,7 @@ GROUPS = {"kernels": kernels.measure_kernels, "steps": kernels.measure_steps,
           "halo": kernels.measure_halo, "blocks": scenes.measure_blocks,
           "ranks": scenes.measure_ranks, "growth": growth.measure_growth,
           "memory": growth.measure_memory, "scale": growth.measure_scale,
+          "studies": studies.measure_studies,
           "instructions": scenes.measure_instructions, "wood": scenes.measure_wood}
 
 
@@ -39,6 +43,8 @@ def arguments():
     parser.add_argument("--build", type=Path, default=PROJECT / "build", help="build folder")
     parser.add_argument("--quick", action="store_true", help="fewer cases, 2 samples")
     parser.add_argument("--only", action="append", choices=GROUPS, help="this group (repeatable)")
+    parser.add_argument("--resume", action="store_true", help="keep the groups of BUILD/performance/"
+                        "table.json if the same program was measured")
     parser.add_argument("--repeat", type=int, default=5, help="samples of a figure (default 5)")
     parser.add_argument("--store", metavar="RELEASE", help="keep as the table of a release")
     parser.add_argument("--unjudged", action="store_true", help="exit status 0 whatever is worse")
@@ -54,29 +60,40 @@ def last_release():
                default=None)
 
 
+def resumed(options, about, path):
+    """The table of an earlier run, if it may be gone on with."""
+    if options.resume and path.exists():
+        earlier = tables.read(path)
+        if all(earlier["about"][key] == about[key] for key in ("machine", "build", "quick")):
+            return earlier
+    return {"about": about, "groups": [], "figures": []}
+
+
 def measure(options):
+    """Writes the table after every group: nothing is lost where a later one fails."""
     build = Build(options.build)
-    loads = [load()]
-    if loads[0] > 0.3:
-        print(f"benchmark.py: the machine is busy (load {loads[0]:.2f}): times will be too long",
-              file=sys.stderr)
-    about = {"machine": machine(), "build": build.about(), "load": loads,
-             "date": time.strftime("%Y-%m-%d"), "quick": options.quick}
-    rows = []
-    for name in options.only or GROUPS:
-        start = time.monotonic()
-        rows += GROUPS[name](build, 2 if options.quick else options.repeat, options.quick)
-        print(f"{name}: {time.monotonic() - start:.0f} s", flush=True)
-    loads.append(load())
-    return {"about": about, "figures": rows}
-
-
-def keep(table, options):
     folder = options.build / "performance"
-    tables.write(table, folder / "table.json")
+    before = load()
+    if before > 0.3:
+        print(f"benchmark.py: the machine is busy (load {before:.2f}): times will be too long",
+              file=sys.stderr)
+    table = resumed(options, {"machine": machine(), "build": build.about(), "load": [before, before],
+                              "date": time.strftime("%Y-%m-%d"), "quick": options.quick},
+                    folder / "table.json")
+    for name in options.only or GROUPS:
+        if name in table["groups"]:
+            continue
+        start = time.monotonic()
+        table["figures"] += GROUPS[name](build, 2 if options.quick else options.repeat,
+                                         options.quick)
+        table["groups"].append(name)
+        table["about"]["load"][1] = load()
+        tables.write(table, folder / "table.json")
+        print(f"{name}: {time.monotonic() - start:.0f} s", flush=True)
     (folder / "table.md").write_text(tables.about_text(table) + "\n\n" +
                                      tables.markdown(table["figures"]) + "\n")
     print(f"wrote {folder / 'table.json'} and table.md")
+    return table
 
 
 def draw_growth(table, path):
@@ -105,7 +122,6 @@ def main():
     except RunFailed as failure:
         print(f"benchmark.py: {failure}", file=sys.stderr)
         return 2
-    keep(table, options)
     release = last_release()
     worse = []
     if release:

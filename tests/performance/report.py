@@ -1,9 +1,11 @@
-"""docs/performance.md from the stored table, the hand-written changes and the plan."""
+"""docs/performance.md from the stored table, the plan and the hand-written bounds and changes."""
 from measuring import PROJECT
 from plan import plan
+from studies import study_table
 from table import about_text, catalogue, markdown
 
 PAGE = PROJECT / "docs" / "performance.md"
+BOUNDS = PROJECT / "docs" / "performance" / "bounds.md"
 CHANGES = PROJECT / "docs" / "performance" / "changes.md"
 PICTURE = PROJECT / "docs" / "images" / "cost_growth.png"
 
@@ -21,7 +23,8 @@ def page(table, release):
     parts = [
         "# Performance\n",
         "Written by `tests/performance/benchmark.py` from the table of release "
-        f"{release} (`tests/performance/stored/{release}.json`) and from\n"
+        f"{release} (`tests/performance/stored/{release}.json`),\n"
+        "[performance/bounds.md](performance/bounds.md) and "
         "[performance/changes.md](performance/changes.md). Measure again:\n\n"
         "```sh\ncmake -S . -B build -DMPM_BUILD_BENCHMARKS=ON && cmake --build build -j2\n"
         "python3 tests/performance/benchmark.py\n```\n",
@@ -35,10 +38,16 @@ def page(table, release):
         section("Whole steps", catalogue(rows, "step"),
                 "Nanoseconds per particle and step of the same blocks through `Stepper`, one rank."),
         section("Growth", "![time per step](images/cost_growth.png)" if PICTURE.exists() else ""),
+        section("Ranks without running on them", study_table(rows),
+                "What `--check --ranks` says of ponderosa pine, and `partition_study` of a block of "
+                "wood-like tubes in space (128 cells an edge), at the start and squeezed evenly to "
+                "half, with the borders as they were and moved. Imbalance: particles of the fullest "
+                "rank over the mean. The rest is of the rank that has most; bytes per exchange of "
+                "mass, momentum and force."),
         section("1e8 particles", planned if plan(table) else "",
                 "Computed from the figures of eight million particles on 2 ranks; messages between "
                 "more ranks are not in it."),
-        CHANGES.read_text() if CHANGES.exists() else ""]
+        BOUNDS.read_text(), CHANGES.read_text()]
     return "\n".join(part for part in parts if part)
 
 

@@ -34,6 +34,17 @@ def each(results, key):
     return [result[key] for result in results]
 
 
+def in_turn(build, repeat, scene, settings=(), numbers=(1, 2)):
+    """Runs on these numbers of ranks, one after the other, so that what else the machine does meets
+    all of them. Number of ranks -> summaries."""
+    rounds = [[one_run(build, scene, settings, ranks) for ranks in numbers] for _ in range(repeat)]
+    return dict(zip(numbers, zip(*rounds)))
+
+
+def speed_up(results):
+    return [one["loop_seconds"] / two["loop_seconds"] for one, two in zip(results[1], results[2])]
+
+
 def measure_blocks(build, repeat, quick):
     """Plastic and elastic blocks on one rank, and the plastic ones on two: strong scaling."""
     rows = []
@@ -41,19 +52,16 @@ def measure_blocks(build, repeat, quick):
                "density: 1500 kg/m^3}"]
     for shape in SHAPES[1:2] if quick else SHAPES:
         scene = BENCHMARKS / f"block_{shape}.yaml"
-        alone = runs(build, repeat, scene)
+        results = in_turn(build, repeat, scene, numbers=(1,) if quick else (1, 2))
         unit = "ns/particle/step"
-        rows.append(figure(f"block {shape}", each(alone, "ns_per_particle_step"), unit))
+        rows.append(figure(f"block {shape}", each(results[1], "ns_per_particle_step"), unit))
         if quick:
             continue
         rows.append(figure(f"block {shape}, elastic",
                            each(runs(build, repeat, scene, elastic), "ns_per_particle_step"), unit))
-        pair = runs(build, repeat, scene, ranks=2)
-        rows.append(figure(f"block {shape}, 2 ranks", each(pair, "ns_per_particle_step"),
+        rows.append(figure(f"block {shape}, 2 ranks", each(results[2], "ns_per_particle_step"),
                            "ns/particle/step x ranks"))
-        one, two = (sorted(each(results, "loop_seconds"))[len(results) // 2]
-                    for results in (alone, pair))
-        rows.append(figure(f"block {shape}, speed-up on 2 ranks", [one / two], "1", "ratio"))
+        rows.append(figure(f"block {shape}, speed-up on 2 ranks", speed_up(results), "1", "ratio"))
     return rows
 
 
@@ -65,34 +73,21 @@ def measure_wood(build, repeat, quick):
     for scene in ("loblolly_radial",) if quick else ("loblolly_radial", "ponderosa_tangential"):
         for shape, numbers in (("gimp", (2,)), ("quadratic", (1, 2))):
             settings = [f"numerics.shape_function={shape}", *steps]
-            rounds = [[one_run(build, WOOD / f"{scene}.yaml", settings, ranks) for ranks in numbers]
-                      for _ in range(repeat)]
+            results = in_turn(build, repeat, WOOD / f"{scene}.yaml", settings, numbers)
             name = f"{scene}, {shape}{', first 500 steps' * quick}"
-            for ranks, results in zip(numbers, zip(*rounds)):
+            for ranks, summaries in results.items():
                 label = f"{name}, {ranks} rank{'s'[:ranks > 1]}"
-                rows += [figure(f"{label}: loop", each(results, "loop_seconds"), "s"),
-                         figure(f"{label}: whole program", each(results, "seconds"), "s"),
-                         figure(f"{label}: per step", each(results, "ns_per_particle_step"),
+                rows += [figure(f"{label}: loop", each(summaries, "loop_seconds"), "s"),
+                         figure(f"{label}: whole program", each(summaries, "seconds"), "s"),
+                         figure(f"{label}: per step", each(summaries, "ns_per_particle_step"),
                                 "ns/particle/step x ranks")]
             if len(numbers) == 2:
-                rows.append(figure(f"{name}: speed-up on 2 ranks",
-                                   [one["loop_seconds"] / two["loop_seconds"]
-                                    for one, two in rounds], "1", "ratio"))
-            last = rounds[-1][-1]
+                rows.append(figure(f"{name}: speed-up on 2 ranks", speed_up(results), "1", "ratio"))
+            last = results[2][-1]
             rows += [figure(f"{name}: steps", [last["steps"]], "1", "count"),
                      figure(f"{name}: largest energy error",
                             [100 * last["largest_energy_error"]], "%", "count")]
     return rows
-
-
-def find(summary, key):
-    """A counter wherever it stands in the summary."""
-    if key in summary:
-        return summary[key]
-    for value in summary.values():
-        if isinstance(value, dict) and find(value, key) is not None:
-            return find(value, key)
-    return None
 
 
 COUNTERS = {"migrated": "particles", "messages_per_step": "1", "bytes_per_step": "B",
@@ -104,22 +99,19 @@ def measure_ranks(build, repeat, quick):
     are cores counts only, as times would mean nothing there."""
     scene = BENCHMARKS / "one_sided.yaml"
     rows = []
-    for ranks in (1, 2):
-        results = runs(build, repeat, scene, ranks=ranks)
+    results = in_turn(build, repeat, scene)
+    for ranks, summaries in results.items():
         rows.append(figure(f"one-sided block, {ranks} rank{'s'[:ranks > 1]}",
-                           each(results, "ns_per_particle_step"), "ns/particle/step x ranks"))
-        waiting = [find(result, "waiting_seconds") for result in results]
-        if ranks > 1 and all(isinstance(value, (int, float)) for value in waiting):
-            rows.append(figure(f"one-sided block, {ranks} ranks: waiting", waiting, "s", "count"))
+                           each(summaries, "ns_per_particle_step"), "ns/particle/step x ranks"))
+    rows.append(figure("one-sided block, speed-up on 2 ranks", speed_up(results), "1", "ratio"))
+    rows.append(figure("one-sided block, 2 ranks: waiting", each(results[2], "waiting_seconds"), "s",
+                       "count"))
     for ranks in (2,) if quick else (1, 2, 3, 4):
         result = one_run(build, scene, ranks=ranks, oversubscribed=True)
         rows.append(figure(f"one-sided block, {ranks} rank{'s'[:ranks > 1]}: largest rank",
                            [result["largest_rank_bytes"]], "B", "count"))
-        for counter, unit in COUNTERS.items():
-            value = find(result, counter)
-            if isinstance(value, (int, float)):
-                rows.append(figure(f"one-sided block, {ranks} rank{'s'[:ranks > 1]}: {counter}",
-                                   [value], unit, "count"))
+        rows += [figure(f"one-sided block, {ranks} rank{'s'[:ranks > 1]}: {counter}",
+                        [result[counter]], unit, "count") for counter, unit in COUNTERS.items()]
     return rows
 
 

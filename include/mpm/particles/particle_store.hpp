@@ -69,15 +69,14 @@ class ColumnGroup {
   void resize(LocalIndex particles);
   void reserve(LocalIndex particles);
   void copy_particle(LocalIndex from, LocalIndex to);
-  /// Particle k becomes the one that was at order[k].
-  void permute(std::span<const LocalIndex> order);
+  /// Particle k becomes the one that was at order[k]. `scratch` is for reuse.
+  void permute(std::span<const LocalIndex> order, std::vector<double>& scratch);
   std::size_t bytes() const { return data_.capacity() * sizeof(double); }
 
  private:
   std::vector<Column> columns_;
   int width_ = 0;
   LaneVector<double> data_;
-  std::vector<double> scratch_;
 };
 
 class ParticleStore {
@@ -119,6 +118,7 @@ class ParticleStore {
   ColumnGroup motion_, state_;
   std::vector<GlobalIndex> ids_;
   std::vector<int> zero_motion_, zero_state_;
+  std::vector<double> scratch_;
 };
 
 }  // namespace mpm
