@@ -28,8 +28,9 @@ def measure_growth(build, repeat, quick):
     rows, points = [], []
     for wanted in PARTICLES[:3] if quick else PARTICLES:
         edge = round(math.sqrt(wanted / 4))
-        # About 4e6 updates of a particle a run: some tenths of a second.
-        steps = max(5, min(2000, round(4e6 / wanted)))
+        # About 4e6 updates of a particle a run, some tenths of a second, but more steps than what
+        # the first one does for the rest would show in.
+        steps = max(20, min(2000, round(4e6 / wanted)))
         results = runs(build, repeat, scene, [f"grid.cells=[{edge}, {edge}]", f"steps={steps}"])
         rows.append(figure(f"step of {4 * edge * edge} particles",
                            [1e3 * step_seconds(result) for result in results], "ms",

@@ -108,25 +108,29 @@ def run(command, ranks=1, oversubscribed=False):
     return seconds, 1024 * usage.ru_maxrss
 
 
+def avx2_build(build):
+    """The same sources for AVX2: what valgrind can follow, and the same instructions anywhere."""
+    folder = build.folder / "performance" / "avx2"
+    for command in (["cmake", "-S", PROJECT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release",
+                     "-DMPM_VECTOR=avx2", "-DMPM_BUILD_TESTS=OFF"],
+                    ["cmake", "--build", folder, "--target", "mpm_par", "-j", str(os.cpu_count())]):
+        built = subprocess.run(list(map(str, command)), capture_output=True, text=True)
+        if built.returncode != 0:
+            raise RunFailed(" ".join(map(str, command)) + "\n" + built.stderr[-3000:])
+    return Build(folder)
+
+
 def instructions(command):
-    """User instructions of one run, by perf where the processor lets it count, else None."""
-    if not shutil.which("perf"):
-        return None
-    counted = subprocess.run(["perf", "stat", "-x", ",", "-e", "instructions:u", *map(str, command)],
-                             env=environment(), capture_output=True, text=True)
-    found = re.search(r"^(\d+),[^,]*,instructions:u", counted.stderr, re.MULTILINE)
-    return int(found[1]) if found else None
-
-
-def callgrind_instructions(command):
-    """The same by simulation, fifty times slower: for small cases."""
+    """Of one run in one process, simulated, fifty times slower: for small cases. None without
+    valgrind."""
     if not shutil.which("valgrind"):
         return None
     counted = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
                               *map(str, command)],
                              env=environment(), capture_output=True, text=True)
-    found = re.search(r"Collected : (\d+)", counted.stderr)
-    return int(found[1]) if found else None
+    if counted.returncode != 0:
+        raise RunFailed(" ".join(map(str, command)) + "\n" + counted.stderr[-3000:])
+    return int(re.search(r"Collected : (\d+)", counted.stderr)[1])
 
 
 def figure(name, samples, unit, kind="time", **more):

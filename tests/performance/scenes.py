@@ -3,7 +3,7 @@ import json
 import tempfile
 from pathlib import Path
 
-from measuring import PROJECT, callgrind_instructions, figure, instructions, run
+from measuring import PROJECT, avx2_build, figure, instructions, run
 
 BENCHMARKS = PROJECT / "inputs" / "benchmarks"
 WOOD = PROJECT / "inputs" / "wood"
@@ -116,25 +116,22 @@ def measure_ranks(build, repeat, quick):
 
 
 def measure_instructions(build, _repeat, quick):
-    """Instructions that do not depend on who else uses the machine: the difference of two runs of
-    a small block, per particle and step."""
-    settings = ["grid.cells=[40, 40]"]
+    """Instructions do not depend on who else uses the machine: the difference of two runs of a
+    small block, per particle and step."""
+    if quick:
+        return []  # needs a second build
+    build = avx2_build(build)
     steps = (10, 30)
-    for counter, name in ((instructions, "perf"), (callgrind_instructions, "callgrind")):
-        if quick and counter is callgrind_instructions:
-            continue
-        rows = []
-        for shape in SHAPES:
-            counts = []
-            for number in steps:
-                with tempfile.TemporaryDirectory() as folder:
-                    counts.append(counter(command(build, BENCHMARKS / f"block_{shape}.yaml", folder,
-                                                  [*settings, f"steps={number}"])))
-            if None in counts:
-                break
-            per_step = (counts[1] - counts[0]) / (40 * 40 * 4 * (steps[1] - steps[0]))
-            rows.append(figure(f"block {shape}: instructions ({name})", [per_step],
-                               "instructions/particle/step", "instructions"))
-        if rows:
-            return rows
-    return []
+    rows = []
+    for shape in SHAPES:
+        counts = []
+        for number in steps:
+            with tempfile.TemporaryDirectory() as folder:
+                counts.append(instructions(command(build, BENCHMARKS / f"block_{shape}.yaml", folder,
+                                                   ["grid.cells=[40, 40]", f"steps={number}"])))
+        if None in counts:
+            return []
+        per_step = (counts[1] - counts[0]) / (40 * 40 * 4 * (steps[1] - steps[0]))
+        rows.append(figure(f"block {shape}, AVX2: instructions", [per_step],
+                           "instructions/particle/step", "instructions"))
+    return rows
