@@ -74,15 +74,15 @@ def environment():
     return {**os.environ, **MPI_ENVIRONMENT}
 
 
-def pinned(command, ranks, oversubscribed=False):
-    """On cores of its own, the last ones (the first serves interrupts); before others where the
-    account may ask for it."""
+def pinned(command, ranks, oversubscribed=False, core=None):
+    """On this core, or on cores of its own, the last ones (the first serves interrupts); before
+    others where the account may ask for it."""
     cores = os.cpu_count()
     words = ["nice", "-n", "-10"] if os.geteuid() == 0 else []
     if oversubscribed:
         binding = ["--bind-to", "none"]
     else:
-        chosen = ",".join(str(core) for core in range(max(0, cores - ranks), cores))
+        chosen = ",".join(map(str, range(max(0, cores - ranks), cores) if core is None else [core]))
         words += ["taskset", "-c", chosen] if shutil.which("taskset") else []
         binding = ["--bind-to", "core"] if ranks > 1 else ["--bind-to", "none"]
     if ranks > 1:
@@ -90,12 +90,12 @@ def pinned(command, ranks, oversubscribed=False):
     return words + [str(word) for word in command]
 
 
-def run(command, ranks=1, oversubscribed=False):
+def run(command, ranks=1, oversubscribed=False, core=None):
     """Runs to the end; returns seconds and the peak resident memory of its largest process, bytes.
     """
     with tempfile.TemporaryFile() as output:
         start = time.monotonic()
-        process = subprocess.Popen(pinned(command, ranks, oversubscribed), env=environment(),
+        process = subprocess.Popen(pinned(command, ranks, oversubscribed, core), env=environment(),
                                    stdin=subprocess.DEVNULL, stdout=output,
                                    stderr=subprocess.STDOUT)
         _, status, usage = os.wait4(process.pid, 0)

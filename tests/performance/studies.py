@@ -35,8 +35,8 @@ def measure_studies(build, _repeat, quick):
 def study_table(rows):
     found = {}
     for row in rows:
-        prefix, *key, column = row["name"].split("/")
-        if prefix == "study":
+        if row["name"].startswith("study/"):
+            _, *key, column = row["name"].split("/")
             found.setdefault(tuple(key), {})[column] = row["value"]
     if not found:
         return ""
