@@ -13,8 +13,10 @@ namespace {
 
 /// Particles cross a cell in hundreds of steps; sorting costs about as much as one step.
 constexpr int steps_between_sorts = 50;
-/// Activity and nearness are marked one node wide of the particles' stencils.
-constexpr double cells_between_sorts = 1;
+/// Activity and nearness are marked one node wide of the particles' stencils, so that particles
+/// must not go further than a cell between sorts. The next step may take them twice as far as the
+/// last one, and this far even from rest.
+constexpr double cells_in_a_step = 0.25;
 /// Blocks between two looks after the messages.
 constexpr LocalIndex blocks_between_looks = 2048 / lane_count;
 
@@ -88,9 +90,9 @@ void Stepper<Dim>::move_and_sum(NodeSum sum, double dt,
   const double moved = largest_speed_ * dt;
   moved_since_sort_ += moved;
   ++steps_since_sort_;
-  // The next step may take a particle twice as far as this one.
+  const double cell = grid_.geometry().smallest_spacing();
   if (steps_since_sort_ >= steps_between_sorts ||
-      moved_since_sort_ + 2 * moved > cells_between_sorts * grid_.geometry().smallest_spacing())
+      moved_since_sort_ + std::max(2 * moved, cells_in_a_step * cell) > cell)
     sort_and_activate();
 }
 
