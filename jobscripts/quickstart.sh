@@ -18,7 +18,7 @@ name=loblolly_radial
 results=results/$name
 draw() {
   xvfb-run -a pvbatch --force-offscreen-rendering jobscripts/paraview_frames.py \
-    "$results/$name.xdmf"
+    "$results/$name.xdmf" --strain 5% 17% 29% 46% 60%
 }
 step() { printf '\n== %s\n' "$1"; }
 
