@@ -27,14 +27,6 @@ std::string line(int ranks, const char* kind, const char* state, const Partition
 }  // namespace
 
 template <int Dim>
-std::vector<double> loads_of(const Ownership<Dim>& ownership, const CellVisits<Dim>& particles)
-{
-  std::vector<double> loads(ownership.ranks(), 0.0);
-  particles([&](const IndexVec<Dim>& cell) { loads[ownership.owner_of_cell(cell)] += 1; });
-  return loads;
-}
-
-template <int Dim>
 PartitionReport report_on(const Ownership<Dim>& ownership, int support,
                           const CellVisits<Dim>& particles)
 {
@@ -81,8 +73,6 @@ std::string partition_table(const GridGeometry<Dim>& geometry, const std::vector
   return text;
 }
 
-template std::vector<double> loads_of(const Ownership<2>&, const CellVisits<2>&);
-template std::vector<double> loads_of(const Ownership<3>&, const CellVisits<3>&);
 template PartitionReport report_on(const Ownership<2>&, int, const CellVisits<2>&);
 template PartitionReport report_on(const Ownership<3>&, int, const CellVisits<3>&);
 template std::string partition_table(const GridGeometry<2>&, const std::vector<int>&,

@@ -48,6 +48,14 @@ void WorkMap<Dim>::sum_over_ranks(MPI_Comm comm)
   mpm::sum_over_ranks(comm, blocks_.work);
 }
 
+template <int Dim>
+std::vector<double> loads_of(const Ownership<Dim>& ownership, const CellVisits<Dim>& particles)
+{
+  std::vector<double> loads(ownership.ranks(), 0.0);
+  particles([&](const IndexVec<Dim>& cell) { loads[ownership.owner_of_cell(cell)] += 1; });
+  return loads;
+}
+
 double imbalance_of(const std::vector<double>& loads)
 {
   const double sum = std::accumulate(loads.begin(), loads.end(), 0.0);
@@ -56,5 +64,7 @@ double imbalance_of(const std::vector<double>& loads)
 
 template class WorkMap<2>;
 template class WorkMap<3>;
+template std::vector<double> loads_of(const Ownership<2>&, const CellVisits<2>&);
+template std::vector<double> loads_of(const Ownership<3>&, const CellVisits<3>&);
 
 }  // namespace mpm

@@ -44,13 +44,12 @@ Choice<Dim> present_choice(const Stepper<Dim>& stepper, const PartitionRules<Dim
 {
   const Decomposition<Dim>& now = stepper.decomposition();
   WorkMap<Dim> work(now.geometry(), now.ranks());
-  for_each_cell_of(stepper, [&](const IndexVec<Dim>& cell) { work.add(cell, particle_cost); });
+  const auto particles = [&](const auto& visit) { for_each_cell_of(stepper, visit); };
+  particles([&](const IndexVec<Dim>& cell) { work.add(cell, particle_cost); });
   work.sum_over_ranks(now.comm());
   const auto loads_under = [&](const Ownership<Dim>& ownership) {
-    std::vector<double> loads(ownership.ranks(), 0.0);
-    for_each_cell_of(stepper, [&](const IndexVec<Dim>& cell) {
-      loads[ownership.owner_of_cell(cell)] += particle_cost;
-    });
+    std::vector<double> loads = loads_of<Dim>(ownership, particles);
+    for (double& load : loads) load *= particle_cost;
     sum_over_ranks(now.comm(), loads);
     return loads;
   };

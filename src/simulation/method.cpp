@@ -106,15 +106,14 @@ Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene,
 {
   // Each rank counts its share of the locations.
   const RowShare share{rank_of(comm), ranks_of(comm)};
+  const auto particles = [&](const auto& visit) {
+    for_each_particle_cell(scene, specimen, layout, share, visit);
+  };
   WorkMap<2> work(layout.geometry, ranks_of(comm));
-  for_each_particle_cell(scene, specimen, layout, share,
-                         [&](const IndexVec<2>& cell) { work.add(cell); });
+  particles([&](const IndexVec<2>& cell) { work.add(cell); });
   work.sum_over_ranks(comm);
   const auto loads_under = [&](const Ownership<2>& ownership) {
-    std::vector<double> loads(ownership.ranks(), 0.0);
-    for_each_particle_cell(scene, specimen, layout, share, [&](const IndexVec<2>& cell) {
-      loads[ownership.owner_of_cell(cell)] += 1;
-    });
+    std::vector<double> loads = loads_of<2>(ownership, particles);
     sum_over_ranks(comm, loads);
     return loads;
   };

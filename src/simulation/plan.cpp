@@ -51,9 +51,8 @@ std::string ranks_text(const scene::Scene& scene, const micrograph::SpecimenMode
                        const Layout& layout, const Ownership<2>& ownership)
 {
   if (ownership.ranks() == 1) return "1";
-  std::vector<double> loads(ownership.ranks(), 0.0);
-  for_each_particle_cell(scene, specimen, layout, {}, [&](const IndexVec<2>& cell) {
-    loads[ownership.owner_of_cell(cell)] += 1;
+  const std::vector<double> loads = loads_of<2>(ownership, [&](const auto& visit) {
+    for_each_particle_cell(scene, specimen, layout, {}, visit);
   });
   const IndexVec<2> grid = ownership.ranks_per_axis();
   return fmt::format(

@@ -3,7 +3,6 @@
 
 #include <mpm/parallel/partition.hpp>
 
-#include <functional>
 #include <string>
 
 namespace mpm {
@@ -14,13 +13,6 @@ struct PartitionReport {
   int messages = 0;              ///< per exchange, of the rank with most neighbours
   GlobalIndex bytes = 0;         ///< per exchange of mass, momentum and force, of the busiest
 };
-
-/// visit(cell) for each particle.
-template <int Dim>
-using CellVisits = std::function<void(const std::function<void(const IndexVec<Dim>&)>& visit)>;
-
-template <int Dim>
-std::vector<double> loads_of(const Ownership<Dim>& ownership, const CellVisits<Dim>& particles);
 
 /// Looks at every rank in turn.
 template <int Dim>

@@ -4,6 +4,8 @@
 #include <mpm/parallel/block_partition.hpp>
 #include <mpm/parallel/weighted_cuts.hpp>
 
+#include <functional>
+
 #include <mpi.h>
 
 namespace mpm {
@@ -26,6 +28,14 @@ class WorkMap {
   LayerWeights<Dim> layers_;
   BlockWork<Dim> blocks_;
 };
+
+/// visit(cell) for each particle.
+template <int Dim>
+using CellVisits = std::function<void(const std::function<void(const IndexVec<Dim>&)>& visit)>;
+
+/// Of these particles, how many each rank has under a map of owners.
+template <int Dim>
+std::vector<double> loads_of(const Ownership<Dim>& ownership, const CellVisits<Dim>& particles);
 
 /// Load of the busiest rank over the mean.
 double imbalance_of(const std::vector<double>& loads);
