@@ -1,9 +1,8 @@
 #pragma once
 /// The nodes of this rank: what it owns and the halo around it, and the values they hold in a step.
 
-#include <mpm/core/lanes.hpp>
+#include <mpm/core/lane_vector.hpp>
 #include <mpm/grid/box.hpp>
-#include <mpm/particles/particle_store.hpp>
 
 #include <vector>
 

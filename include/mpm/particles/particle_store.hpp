@@ -7,10 +7,10 @@
 /// Lanes behind the last particle are padding: they sit where a real particle sits, but carry no
 /// mass and no volume, so that kernels need no special case for them.
 
+#include <mpm/core/lane_vector.hpp>
 #include <mpm/core/lanes.hpp>
 #include <mpm/core/types.hpp>
 
-#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,24 +23,6 @@ struct Column {
   int components = 1;
   std::string unit;
 };
-
-template <class T>
-struct LaneAllocator {
-  using value_type = T;
-  LaneAllocator() = default;
-  template <class U>
-  LaneAllocator(const LaneAllocator<U>&)
-  {
-  }
-  T* allocate(std::size_t n)
-  {
-    return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{lane_alignment}));
-  }
-  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{lane_alignment}); }
-  friend bool operator==(const LaneAllocator&, const LaneAllocator&) { return true; }
-};
-template <class T>
-using LaneVector = std::vector<T, LaneAllocator<T>>;
 
 /// Columns that belong together in memory.
 class ColumnGroup {
