@@ -4,6 +4,8 @@
 #include <mpm/materials/law.hpp>
 #include <mpm/transfer/stencil.hpp>
 
+#include <algorithm>
+
 namespace mpm {
 
 /// What a pass adds to the nodes.
@@ -12,7 +14,8 @@ struct ScatterContent {
 };
 
 /// Sums contributions in registers while particles share their first node (they are sorted by it),
-/// and adds them to the nodes when the first node changes.
+/// and adds them to the nodes when the first node changes. Blocks in which it changes often, as in
+/// crumpled walls, add each particle to the nodes at once: no processor foretells those changes.
 template <int Dim, class Shape, ScatterContent Content>
 class Scatter {
   static constexpr int n = Shape::support;
@@ -40,21 +43,50 @@ class Scatter {
                                   const Lanes (&momentum)[Dim], const double* force_stress,
                                   const Lanes (&affine)[Dim * Dim])
   {
-    const auto &w = stencil.weight, &g = stencil.gradient, &offset = stencil.offset;
-    alignas(lane_alignment) double m[lane_count];
-    alignas(lane_alignment) double mv[Dim][lane_count];
-    alignas(lane_alignment) double mc[Dim * Dim][lane_count];
-    store(mass, m);
-    for (int d = 0; d < Dim; ++d) store(momentum[d], mv[d]);
+    alignas(lane_alignment) Columns columns;
+    store(mass, columns.mass);
+    for (int d = 0; d < Dim; ++d) store(momentum[d], columns.momentum[d]);
     if constexpr (Affine)
-      for (int k = 0; k < Dim * Dim; ++k) store(affine[k], mc[k]);
+      for (int k = 0; k < Dim * Dim; ++k) store(affine[k], columns.affine[k]);
 
+    if (changes_of_node(stencil) <= most_changes) {
+      add_lanes<Affine, true>(stencil, columns, force_stress);
+    } else {
+      flush();
+      base_ = -1;
+      add_lanes<Affine, false>(stencil, columns, force_stress);
+    }
+  }
+
+ private:
+  struct Columns {
+    double mass[lane_count], momentum[Dim][lane_count], affine[Dim * Dim][lane_count];
+  };
+
+  /// A full cell of four particles changes the first node twice in eight lanes.
+  static constexpr int most_changes = std::max(1, lane_count * 3 / 8);
+
+  int changes_of_node(const Stencil<Dim, Shape>& stencil) const
+  {
+    const Lanes before([&](auto k) { return k == 0 ? double(base_) : stencil.base[k - 1]; });
+    return stdx::popcount(load(stencil.base) != before);
+  }
+
+  template <bool Affine, bool InRegisters>
+  [[gnu::always_inline]] void add_lanes(const Stencil<Dim, Shape>& stencil, const Columns& columns,
+                                        const double* force_stress)
+  {
+    const auto &w = stencil.weight, &g = stencil.gradient, &offset = stencil.offset;
+    const auto& mv = columns.momentum;
+    const auto& mc = columns.affine;
     for (int lane = 0; lane < lane_count; ++lane) {
       const LocalIndex base = LocalIndex(stencil.base[lane]);
-      if (base != base_) {
-        flush();
-        clear();
-        base_ = base;
+      if constexpr (InRegisters) {
+        if (base != base_) {
+          flush();
+          clear();
+          base_ = base;
+        }
       }
       // Column j of V0 tau times the gradient's component j.
       R plain = R([&](auto k) { return momentum_at(mv, k, lane); });
@@ -66,12 +98,18 @@ class Scatter {
           along[j] = R([&](auto k) { return k < Dim ? mc[k + Dim * j][lane] : 0.0; });
       }
       const MassRow mass_row =
-          MassRow([&](auto k) { return k < n ? w[0][k][lane] : 0.0; }) * m[lane];
+          MassRow([&](auto k) { return k < n ? w[0][k][lane] : 0.0; }) * columns.mass[lane];
       for (int row = 0; row < rows; ++row) {
         const int b = row % n, c = row / n;
         double w_row = w[1][b][lane];
         if constexpr (Dim == 3) w_row *= w[2][c][lane];
-        if constexpr (Content.mass) mass_[row] += mass_row * w_row;
+        const std::size_t node = first_of_row(base, row);
+        if constexpr (Content.mass) {
+          if constexpr (InRegisters)
+            mass_[row] += mass_row * w_row;
+          else
+            add_to(grid_.mass.data() + node, mass_row * w_row);
+        }
         R at_row = plain;  // without the force: times w along x
         if constexpr (Affine) {
           at_row += along[1] * offset[1][b][lane];
@@ -87,16 +125,20 @@ class Scatter {
         }
         for (int a = 0; a < n; ++a) {
           // Term by term, so that each is one multiply-add.
-          R& sum = sum_[row * n + a];
+          double* record = target_ + (node + a) * width;
+          R sum = InRegisters ? sum_[row * n + a] : R(record, stdx::element_aligned);
           sum += at_row * w[0][a][lane];
           if constexpr (Content.force) sum += (tau[0] * w_row) * g[0][a][lane];
           if constexpr (Affine) sum += (along[0] * w_row) * (w[0][a][lane] * offset[0][a][lane]);
+          if constexpr (InRegisters)
+            sum_[row * n + a] = sum;
+          else
+            sum.copy_to(record, stdx::element_aligned);
         }
       }
     }
   }
 
- private:
   static double momentum_at(const double (&mv)[Dim][lane_count], int k, int lane)
   {
     return (Content.momentum || Content.remap) && k < Dim ? mv[k][lane] : 0.0;
@@ -112,28 +154,33 @@ class Scatter {
     return s[component * lane_count + lane];
   }
 
-  void clear()
+  // Both inlined in all places, or else the sums would not be registers.
+  [[gnu::always_inline]] void clear()
   {
     for (R& s : sum_) s = 0.0;
     if constexpr (Content.mass)
       for (MassRow& s : mass_) s = 0.0;
   }
 
-  void flush()
+  std::size_t first_of_row(LocalIndex base, int row) const
+  {
+    std::size_t node = base + std::size_t(row % n) * grid_.stride(1);
+    if constexpr (Dim == 3) node += std::size_t(row / n) * grid_.stride(2);
+    return node;
+  }
+  template <class Values>
+  static void add_to(double* place, const Values& values)
+  {
+    (Values(place, stdx::element_aligned) + values).copy_to(place, stdx::element_aligned);
+  }
+
+  [[gnu::always_inline]] void flush()
   {
     if (base_ < 0) return;
     for (int row = 0; row < rows; ++row) {
-      std::size_t node = base_ + std::size_t(row % n) * grid_.stride(1);
-      if constexpr (Dim == 3) node += std::size_t(row / n) * grid_.stride(2);
-      for (int a = 0; a < n; ++a) {
-        double* record = target_ + (node + a) * width;
-        (R(record, stdx::element_aligned) + sum_[row * n + a])
-            .copy_to(record, stdx::element_aligned);
-      }
-      if constexpr (Content.mass) {
-        double* m = grid_.mass.data() + node;
-        (MassRow(m, stdx::element_aligned) + mass_[row]).copy_to(m, stdx::element_aligned);
-      }
+      const std::size_t node = first_of_row(base_, row);
+      for (int a = 0; a < n; ++a) add_to(target_ + (node + a) * width, sum_[row * n + a]);
+      if constexpr (Content.mass) add_to(grid_.mass.data() + node, mass_[row]);
     }
   }
 
