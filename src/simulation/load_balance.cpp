@@ -7,13 +7,13 @@ namespace mpm {
 
 namespace {
 
-constexpr double bound = 1.05;
-constexpr int checks_in_a_row = 3;
+constexpr double bound = 1.03;
+constexpr int checks_in_a_row = 8;
 /// Steps until the next attempt after one that did not pay.
 constexpr GlobalIndex steps_of_patience = 500;
-/// Share of the latest check in the smoothed cost of a particle, and how far that may be from the
-/// mean: on a rank with few particles the nodes cost more than they do.
-constexpr double newest = 0.2, largest_cost = 1.5;
+/// How far the cost of a particle may be from the mean: on a rank with few particles the nodes cost
+/// more than they do.
+constexpr double largest_cost = 1.5;
 /// Costs are compared while no rank has more than so many times the mean's particles.
 constexpr double comparable = 1.1;
 /// Steps that a gain is counted for at least.
@@ -84,8 +84,7 @@ void LoadBalance<Dim>::observe(const Stepper<Dim>& stepper)
   }
   const double own = agreed.own_seconds / stepper.particles();
   const double mean = agreed.mean_seconds / agreed.mean_particles;
-  const double cost = std::clamp(own / mean, 1 / largest_cost, largest_cost);
-  particle_cost_ += newest * (cost - particle_cost_);
+  particle_cost_ = mean > 0 ? std::clamp(own / mean, 1 / largest_cost, largest_cost) : 1;
 }
 
 template <int Dim>
@@ -104,16 +103,14 @@ bool LoadBalance<Dim>::move_borders(Stepper<Dim>& stepper)
   const double start = MPI_Wtime();
   const Choice<Dim> choice = present_choice(stepper, rules_, particle_cost_);
   if (interval_ == 0) {
-    const typename Stepper<Dim>::Agreed& agreed = stepper.agreed();
-    const double saved = (choice.imbalance_now - choice.next.imbalance()) * agreed.mean_seconds /
-                         double(agreed.steps);
+    const double saved =
+        (choice.imbalance_now - choice.next.imbalance()) * stepper.agreed().mean_seconds;
     const GlobalIndex horizon = std::max(shortest_horizon, stepper.steps() - last_);
     if (saved <= 0 || saved * double(horizon) < cost_) return false;
   }
   stepper.repartition(choice.next.ownership);
   cost_ = largest_over_ranks(comm, MPI_Wtime() - start);
   last_ = stepper.steps();
-  particle_cost_ = 1;  // others' particles are here now
   ++repartitions_;
   return true;
 }

@@ -73,6 +73,7 @@ GlobalIndex Stepper<Dim>::repartition(const Ownership<Dim>& ownership)
   halo_ = Halo<Dim>(decomposition_, support);
   migration_ = Migration<Dim>(decomposition_, support, halo_.neighbours());
   bounds_ = move_bounds(decomposition_);
+  particle_seconds_.clear();  // others' particles are here now
   connect();
   return sent;
 }

@@ -55,21 +55,25 @@ void Stepper<Dim>::check()
   constexpr double never = -std::numeric_limits<double>::infinity();
   double wave_speed = 0;
   for (const Body<Dim>& body : bodies_) wave_speed = std::max(wave_speed, present_wave_speed(body));
+  const GlobalIndex steps = steps_ - checked_;
+  // A few steps between two lines of the history say little.
+  if (particles() > 0 && steps >= steps_between_checks / 2)
+    particle_seconds_.add(busy_.seconds() / double(steps) / particles());
+  const double work = particle_seconds_.value() * particles();
   // The largest of: speeds, time of work, particles, and minus the step of the first loss.
-  std::array<double, 5> largest{largest_speed_, wave_speed, busy_.seconds(), double(particles()),
+  std::array<double, 5> largest{largest_speed_, wave_speed, work, double(particles()),
                                 loss_ ? -double(loss_->step) : never};
   const MPI_Comm comm = decomposition_.comm();
   largest_over_ranks(comm, largest);
   if (largest[4] > never) stop(GlobalIndex(-largest[4]));
-  std::array<double, 2> mean{busy_.seconds(), double(particles())};
+  std::array<double, 2> mean{work, double(particles())};
   sum_over_ranks(comm, mean);
   for (double& value : mean) value /= decomposition_.ranks();
   agreed_.largest_speed = largest[0];
   agreed_.wave_speed = largest[1];
   agreed_.busiest_seconds = largest[2];
   agreed_.mean_seconds = mean[0];
-  agreed_.own_seconds = busy_.seconds();
-  agreed_.steps = steps_ - checked_;
+  agreed_.own_seconds = work;
   agreed_.most_particles = GlobalIndex(largest[3]);
   agreed_.mean_particles = mean[1];
   busy_.clear();

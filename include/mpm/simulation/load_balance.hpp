@@ -39,7 +39,7 @@ class LoadBalance {
   GlobalIndex last_ = 0;        ///< step of the last repartition
   GlobalIndex not_before_ = 0;  ///< step of the next attempt, after one that promised too little
   int checks_above_ = 0;        ///< in a row
-  double particle_cost_ = 1;    ///< of this rank over the mean, smoothed
+  double particle_cost_ = 1;    ///< of this rank over the mean
   double cost_ = 0;             ///< s, of the last repartition
   GlobalIndex checks_ = 0;
   double imbalance_sum_ = 0, work_sum_ = 0;

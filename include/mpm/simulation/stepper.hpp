@@ -2,6 +2,7 @@
 /// The explicit step: update orders made of particle passes, grid updates, conditions and exchange.
 
 #include <mpm/conditions/boundary_condition.hpp>
+#include <mpm/core/recent_least.hpp>
 #include <mpm/parallel/halo.hpp>
 #include <mpm/parallel/migration.hpp>
 #include <mpm/simulation/stopwatch.hpp>
@@ -50,10 +51,10 @@ class Stepper {
   struct Agreed {
     double largest_speed = 0;  ///< m/s, component of a particle's grid velocity in the last step
     double wave_speed = 0;     ///< m/s, of the fastest wave in the particles as they are
-    /// Time of work, without waiting, since the check before: of the busiest rank, and the mean.
+    /// Time of work in a step, without waiting, by the quickest of the last checks: of the busiest
+    /// rank, and the mean.
     double busiest_seconds = 0, mean_seconds = 0;
     double own_seconds = 0;  ///< this rank's
-    GlobalIndex steps = 0;   ///< since the check before
     GlobalIndex most_particles = 0;
     double mean_particles = 0;
 
@@ -151,6 +152,7 @@ class Stepper {
   Agreed agreed_;
   GlobalIndex checked_ = 0;  ///< step of the last check
   Stopwatch busy_;
+  RecentLeast particle_seconds_;  ///< of work for one particle in one step
   Counters counters_;  ///< without those of the present halo and migration
 };
 
