@@ -97,7 +97,8 @@ class Hencky final : public Law<2> {
         yield_(yield),
         mu_(elastic.shear_modulus()),
         bulk_(elastic.bulk_modulus()),
-        lambda_(bulk_ - 2.0 / 3.0 * mu_)
+        lambda_(bulk_ - 2.0 / 3.0 * mu_),
+        inverse_two_mu_(0.5 / mu_)
   {
   }
 
@@ -236,7 +237,8 @@ class Hencky final : public Law<2> {
     const Lanes d = e.mean_deviator();
     const Lanes squared = 9.0 * d * d + 0.75 * e.plane.difference_squared;  // (q / 2 mu)^2
     const Lanes hardening = at(s, plastic_strain);
-    const Lanes limit = (yield_.yield_stress + yield_.hardening_modulus * hardening) / (2 * mu_);
+    const Lanes limit =
+        (yield_.yield_stress + yield_.hardening_modulus * hardening) * inverse_two_mu_;
     const LaneMask yields = squared > limit * limit;
     if (!stdx::any_of(yields)) return;
     const Lanes q = stdx::sqrt(squared);
@@ -290,7 +292,7 @@ class Hencky final : public Law<2> {
   IsotropicConstants elastic_;
   double density_;
   YieldConstants yield_;
-  double mu_, bulk_, lambda_;
+  double mu_, bulk_, lambda_, inverse_two_mu_;
 };
 
 template <PlaneAssumption Plane>
