@@ -108,11 +108,28 @@ def run(command, ranks=1, oversubscribed=False, core=None):
     return seconds, 1024 * usage.ru_maxrss
 
 
+# valgrind 3.19 does not know `vmovq` from register to register as a store, which the assembler takes
+# where that is a byte shorter. As a load it is the same instruction.
+ASSEMBLER = r"""#!/bin/sh
+for file; do
+  case "$file" in
+    *.s) sed -i -E 's/\tvmovq\t(%xmm[0-9]+, %xmm)/\t{load} vmovq\t\1/' "$file" ;;
+  esac
+done
+exec as "$@"
+"""
+
+
 def avx2_build(build):
     """The same sources for AVX2: what valgrind can follow, and the same instructions anywhere."""
     folder = build.folder / "performance" / "avx2"
+    assembler = folder / "assembler" / "as"
+    assembler.parent.mkdir(parents=True, exist_ok=True)
+    assembler.write_text(ASSEMBLER)
+    assembler.chmod(0o755)
     for command in (["cmake", "-S", PROJECT, "-B", folder, "-DCMAKE_BUILD_TYPE=Release",
-                     "-DMPM_VECTOR=avx2", "-DMPM_BUILD_TESTS=OFF"],
+                     "-DMPM_VECTOR=avx2", "-DMPM_BUILD_TESTS=OFF",
+                     f"-DCMAKE_CXX_FLAGS=-B{assembler.parent}"],
                     ["cmake", "--build", folder, "--target", "mpm_par", "-j", str(os.cpu_count())]):
         built = subprocess.run(list(map(str, command)), capture_output=True, text=True)
         if built.returncode != 0:
