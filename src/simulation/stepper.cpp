@@ -74,6 +74,7 @@ GlobalIndex Stepper<Dim>::repartition(const Ownership<Dim>& ownership)
   migration_ = Migration<Dim>(decomposition_, support, halo_.neighbours());
   bounds_ = move_bounds(decomposition_);
   particle_seconds_.clear();  // others' particles are here now
+  measure_anew();
   connect();
   return sent;
 }

@@ -55,10 +55,11 @@ void Stepper<Dim>::check()
   constexpr double never = -std::numeric_limits<double>::infinity();
   double wave_speed = 0;
   for (const Body<Dim>& body : bodies_) wave_speed = std::max(wave_speed, present_wave_speed(body));
-  const GlobalIndex steps = steps_ - checked_;
   // A few steps between two lines of the history say little.
-  if (particles() > 0 && steps >= steps_between_checks / 2)
-    particle_seconds_.add(busy_.seconds() / double(steps) / particles());
+  if (const GlobalIndex steps = steps_ - measured_from_; steps >= steps_between_checks / 2) {
+    if (particles() > 0) particle_seconds_.add(busy_.seconds() / double(steps) / particles());
+    measure_anew();
+  }
   const double work = particle_seconds_.value() * particles();
   // The largest of: speeds, time of work, particles, and minus the step of the first loss.
   std::array<double, 5> largest{largest_speed_, wave_speed, work, double(particles()),
@@ -76,7 +77,6 @@ void Stepper<Dim>::check()
   agreed_.own_seconds = work;
   agreed_.most_particles = GlobalIndex(largest[3]);
   agreed_.mean_particles = mean[1];
-  busy_.clear();
   checked_ = steps_;
 }
 

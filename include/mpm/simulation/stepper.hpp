@@ -123,6 +123,11 @@ class Stepper {
   void collect_sums();
   void collect_leavers();
   void exchange_leavers();
+  void measure_anew()
+  {
+    busy_.clear();
+    measured_from_ = steps_;
+  }
   void note_loss(std::size_t body, const LostParticle<Dim>& lost);
   LostParticle<Dim> strayed(std::size_t body, LocalIndex particle) const;
   void sort_and_activate();
@@ -152,6 +157,7 @@ class Stepper {
   Agreed agreed_;
   GlobalIndex checked_ = 0;  ///< step of the last check
   Stopwatch busy_;
+  GlobalIndex measured_from_ = 0;  ///< step of the last `measure_anew`
   RecentLeast particle_seconds_;  ///< of work for one particle in one step
   Counters counters_;  ///< without those of the present halo and migration
 };
