@@ -6,7 +6,7 @@ from pathlib import Path
 
 PHYSICS = "core shape particles grid materials transfer conditions"
 MAY_INCLUDE = {folder: set(others.split()) | {folder} for folder, others in {
-    "core": "", "shape": "core", "particles": "core", "grid": "core particles",
+    "core": "", "shape": "core", "particles": "core", "grid": "core",
     "materials": "core particles", "transfer": "core shape particles grid materials",
     "conditions": "core particles grid materials transfer", "parallel": PHYSICS, "scene": "core",
     "micrograph": "core scene", "output": "core scene", "analysis": "core output",

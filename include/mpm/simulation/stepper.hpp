@@ -158,8 +158,8 @@ class Stepper {
   GlobalIndex checked_ = 0;  ///< step of the last check
   Stopwatch busy_;
   GlobalIndex measured_from_ = 0;  ///< step of the last `measure_anew`
-  RecentLeast particle_seconds_;  ///< of work for one particle in one step
-  Counters counters_;  ///< without those of the present halo and migration
+  RecentLeast particle_seconds_;   ///< of work for one particle in one step
+  Counters counters_;              ///< without those of the present halo and migration
 };
 
 }  // namespace mpm
