@@ -2,7 +2,7 @@
 /// The nodes of this rank: what it owns and the halo around it, and the values they hold in a step.
 
 #include <mpm/core/lane_vector.hpp>
-#include <mpm/grid/box.hpp>
+#include <mpm/core/index_box.hpp>
 
 #include <vector>
 
