@@ -1,64 +1,116 @@
 #include <mpm/conditions/rigid_body.hpp>
+#include <mpm/core/index_box.hpp>
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mpm {
 
-template <int Dim>
-RigidBody<Dim>::RigidBody(std::vector<Vec<Dim>> points, const Vec<Dim>& half_size,
-                          const Vec<Dim>& velocity, ReactionBook book)
-    : BoundaryCondition<Dim>(book),
-      points_(std::move(points)),
-      half_size_(half_size),
-      velocity_(velocity)
-{
-}
+namespace {
+
+/// Of a cell: nodes so near to a face are on it.
+constexpr double on_the_face = 1e-9;
+
+}  // namespace
 
 template <int Dim>
-void RigidBody<Dim>::mark_nodes(const NodeGrid<Dim>& grid, double time)
+RigidBody<Dim>::RigidBody(const std::vector<Vec<Dim>>& points, const Vec<Dim>& half_size,
+                          const std::array<WallMotion, Dim>& motion, ReactionBook book)
+    : BoundaryCondition<Dim>(book), half_size_(half_size), motion_(motion)
 {
-  nodes_.clear();
-  const GridGeometry<Dim>& geometry = grid.geometry();
-  for (const Vec<Dim>& point : points_) {
-    IndexBox<Dim> inside;
-    for (int d = 0; d < Dim; ++d) {
-      const double centre = point[d] + velocity_[d] * time - geometry.origin[d];
-      const double h = geometry.spacing[d];
-      inside.lower[d] = LocalIndex(std::ceil((centre - half_size_[d]) / h - 1e-9));
-      inside.upper[d] = LocalIndex(std::floor((centre + half_size_[d]) / h + 1e-9)) + 1;
-    }
-    inside = intersection(inside, grid.local());
-    if (inside.empty()) continue;
-    IndexVec<Dim> at = inside.lower;
-    for (GlobalIndex k = 0; k < inside.size(); ++k) {
-      GlobalIndex rest = k;
-      for (int d = 0; d < Dim; ++d) {
-        at[d] = inside.lower[d] + LocalIndex(rest % inside.count()[d]);
-        rest /= inside.count()[d];
-      }
-      if (grid.is_active(grid.index_of(at))) nodes_.push_back(grid.index_of(at));
-    }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  bounds_ = {Vec<Dim>::Constant(infinity), Vec<Dim>::Constant(-infinity)};
+  for (const Vec<Dim>& point : points) {
+    buckets_[key_of(bucket_of(point))].push_back(point);
+    bounds_.lower = bounds_.lower.cwiseMin(point - half_size);
+    bounds_.upper = bounds_.upper.cwiseMax(point + half_size);
   }
-  std::ranges::sort(nodes_);
-  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
 
 template <int Dim>
-void RigidBody<Dim>::constrain_updated(NodeGrid<Dim>& grid, double time, double dt)
+IndexVec<Dim> RigidBody<Dim>::bucket_of(const Vec<Dim>& place) const
 {
-  mark_nodes(grid, time + dt);
-  for (const LocalIndex node : nodes_)
+  IndexVec<Dim> bucket;
+  for (int d = 0; d < Dim; ++d) bucket[d] = LocalIndex(std::floor(place[d] / (2 * half_size_[d])));
+  return bucket;
+}
+
+template <int Dim>
+GlobalIndex RigidBody<Dim>::key_of(const IndexVec<Dim>& bucket)
+{
+  constexpr GlobalIndex most = 1 << 21;  // per axis; a clash costs time, not correctness
+  GlobalIndex key = 0;
+  for (int d = 0; d < Dim; ++d) key = key * most + bucket[d];
+  return key;
+}
+
+template <int Dim>
+bool RigidBody<Dim>::holds(const Vec<Dim>& place, const Vec<Dim>& tolerance) const
+{
+  bool found = false;
+  const IndexVec<Dim> middle = bucket_of(place);
+  for_each_index(IndexBox<Dim>{(middle.array() - 1).matrix(), (middle.array() + 2).matrix()},
+                 [&](const IndexVec<Dim>& bucket) {
+                   if (found) return;
+                   const auto points = buckets_.find(key_of(bucket));
+                   if (points == buckets_.end()) return;
+                   for (const Vec<Dim>& point : points->second)
+                     found =
+                         found ||
+                         ((place - point).array().abs() <= (half_size_ + tolerance).array()).all();
+                 });
+  return found;
+}
+
+template <int Dim>
+void RigidBody<Dim>::find_nodes(const Nodes<Dim>& nodes, double time)
+{
+  const Vec<Dim> tolerance = on_the_face * nodes.spacing(), period = nodes.period();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec<Dim> moved;
+  Region<Dim> region;
+  for (int d = 0; d < Dim; ++d) {
+    moved[d] = motion_[d].displacement(time);
+    const bool anywhere = period[d] > 0;  // its images may lie across the seam
+    region.lower[d] = anywhere ? -infinity : bounds_.lower[d] + moved[d] - tolerance[d];
+    region.upper[d] = anywhere ? infinity : bounds_.upper[d] + moved[d] + tolerance[d];
+  }
+  nodes.find_within(region, near_);
+  found_.clear();
+  for (const LocalIndex node : near_) {
+    Vec<Dim> place = nodes.position(node) - moved;
+    for (int d = 0; d < Dim; ++d) {
+      if (period[d] <= 0) continue;
+      const double middle = 0.5 * (bounds_.lower[d] + bounds_.upper[d]);
+      place[d] -= period[d] * std::round((place[d] - middle) / period[d]);
+    }
+    if (holds(place, tolerance)) found_.push_back(node);
+  }
+}
+
+template <int Dim>
+void RigidBody<Dim>::constrain_updated(const Nodes<Dim>& nodes, NodeFields<Dim>& fields,
+                                       double time, double dt)
+{
+  find_nodes(nodes, time + dt);
+  for (const LocalIndex node : found_) {
+    if (!fields.is_active(node)) continue;
     for (int d = 0; d < Dim; ++d)
-      this->constrain(grid, node, grid.is_owned(node), d, velocity_[d], velocity_[d]);
+      this->constrain(fields, node, nodes.is_owned(node), d, motion_[d].velocity(time),
+                      motion_[d].velocity(time + dt));
+  }
 }
 
 template <int Dim>
-void RigidBody<Dim>::constrain_gradient(NodeGrid<Dim>& grid, double time, double dt)
+void RigidBody<Dim>::constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>& fields,
+                                        double time, double dt)
 {
-  mark_nodes(grid, time + dt);
-  for (const LocalIndex node : nodes_)
-    for (int d = 0; d < Dim; ++d) grid.set_gradient_velocity(node, d, velocity_[d]);
+  find_nodes(nodes, time + dt);
+  for (const LocalIndex node : found_) {
+    if (!fields.is_active(node)) continue;
+    for (int d = 0; d < Dim; ++d)
+      fields.set_gradient_velocity(node, d, motion_[d].velocity(time + dt));
+  }
 }
 
 template class RigidBody<2>;

@@ -67,9 +67,10 @@ template <int Dim>
 std::vector<char> owned_nodes(const Decomposition<Dim>& decomposition, int support)
 {
   const int rank = decomposition.rank();
+  const GridGeometry<Dim>& geometry = decomposition.geometry();
   std::vector<char> owned;
   for_each_index(decomposition.local(rank, support), [&](const IndexVec<Dim>& node) {
-    owned.push_back(decomposition.owner_of_cell(node) == rank);
+    owned.push_back(geometry.wrapped(node) == node && decomposition.owner_of_cell(node) == rank);
   });
   return owned;
 }

@@ -1,5 +1,5 @@
-#include <mpm/core/error.hpp>
 #include <mpm/parallel/halo.hpp>
+#include <mpm/parallel/session.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -10,66 +10,12 @@ namespace {
 
 constexpr int halo_tag = 711;
 
-/// Where the values of a sum lie: one mass per node or none, and `width` numbers of a record.
-struct Values {
-  double* mass;
-  double* records;
-  std::size_t stride;
-  int width;
-
-  int count() const { return width + (mass ? 1 : 0); }
-  void read(LocalIndex node, double* to) const
-  {
-    if (mass) *to++ = mass[node];
-    std::copy_n(records + std::size_t(node) * stride, width, to);
-  }
-  void write(LocalIndex node, const double* from) const
-  {
-    if (mass) mass[node] = *from++;
-    std::copy_n(from, width, records + std::size_t(node) * stride);
-  }
-};
-
-template <int Dim>
-Values values_in(NodeGrid<Dim>& grid, NodeSum sum)
-{
-  constexpr std::size_t record = NodeGrid<Dim>::record_width;
-  double* momentum = grid.momentum_force.data();
-  switch (sum) {
-    case NodeSum::mass_momentum_force:
-      return {grid.mass.data(), momentum, record, 2 * Dim};
-    case NodeSum::mass_momentum:
-      return {grid.mass.data(), momentum, record, Dim};
-    case NodeSum::force:
-      return {nullptr, momentum + Dim, record, Dim};
-    case NodeSum::remapped_momentum:
-      break;
-  }
-  return {nullptr, grid.remapped_momentum.data(), NodeGrid<Dim>::remap_width, Dim};
-}
-
 }  // namespace
 
-template <int Dim>
-int values_of(NodeSum sum)
-{
-  switch (sum) {
-    case NodeSum::mass_momentum_force:
-      return 1 + 2 * Dim;
-    case NodeSum::mass_momentum:
-      return 1 + Dim;
-    case NodeSum::force:
-    case NodeSum::remapped_momentum:
-      break;
-  }
-  return Dim;
-}
-
-template <int Dim>
-Halo<Dim>::Halo(const Decomposition<Dim>& decomposition, int support)
-    : comm_(decomposition.comm()),
-      rank_(decomposition.rank()),
-      shared_(find_shared_nodes(decomposition.ownership(), support, rank_)),
+Halo::Halo(MPI_Comm comm, SharedNodes shared)
+    : comm_(comm),
+      rank_(rank_of(comm)),
+      shared_(std::move(shared)),
       sent_(shared_.sharers.size()),
       received_(shared_.sharers.size()),
       requests_(2 * shared_.sharers.size(), MPI_REQUEST_NULL),
@@ -77,33 +23,45 @@ Halo<Dim>::Halo(const Decomposition<Dim>& decomposition, int support)
 {
 }
 
-template <int Dim>
-std::vector<int> Halo<Dim>::neighbours() const
+std::vector<int> Halo::neighbours() const
 {
   std::vector<int> ranks;
   for (const SharedNodes::Sharer& sharer : shared_.sharers) ranks.push_back(sharer.rank);
   return ranks;
 }
 
-template <int Dim>
-void Halo<Dim>::begin(NodeSum sum, NodeGrid<Dim>& grid, std::span<const LocalIndex> notes)
+void Halo::read(LocalIndex node, double* to) const
 {
-  sum_ = sum;
-  const Values values = values_in(grid, sum);
-  const std::size_t width = std::size_t(values.count());
-  own_.resize(shared_.nodes.size() * width);
+  for (const NodeColumn& column : columns_)
+    to = std::copy_n(column.values + std::size_t(node) * column.stride, column.width, to);
+}
+
+void Halo::write(LocalIndex node, const double* from) const
+{
+  for (const NodeColumn& column : columns_) {
+    std::copy_n(from, column.width, column.values + std::size_t(node) * column.stride);
+    from += column.width;
+  }
+}
+
+void Halo::begin(std::span<const NodeColumn> columns, std::span<const LocalIndex> notes)
+{
+  columns_.assign(columns.begin(), columns.end());
+  width_ = 0;
+  for (const NodeColumn& column : columns) width_ += std::size_t(column.width);
+  own_.resize(shared_.nodes.size() * width_);
   for (std::size_t k = 0; k < shared_.nodes.size(); ++k)
-    values.read(shared_.nodes[k], &own_[k * width]);
+    read(shared_.nodes[k], own_.data() + k * width_);
   for (std::size_t s = 0; s < shared_.sharers.size(); ++s) {
     const SharedNodes::Sharer& sharer = shared_.sharers[s];
-    const std::size_t size = sharer.positions.size() * width + 1;
+    const std::size_t size = sharer.positions.size() * width_ + 1;
     received_[s].resize(size);
     MPI_Irecv(received_[s].data(), int(size), MPI_DOUBLE, sharer.rank, halo_tag, comm_,
               &requests_[2 * s]);
     sent_[s].resize(size);
     double* to = sent_[s].data();
     for (const LocalIndex position : sharer.positions)
-      to = std::copy_n(&own_[std::size_t(position) * width], width, to);
+      to = std::copy_n(own_.data() + std::size_t(position) * width_, width_, to);
     *to = notes.empty() ? 0 : notes[s];
     MPI_Isend(sent_[s].data(), int(size), MPI_DOUBLE, sharer.rank, halo_tag, comm_,
               &requests_[2 * s + 1]);
@@ -112,59 +70,54 @@ void Halo<Dim>::begin(NodeSum sum, NodeGrid<Dim>& grid, std::span<const LocalInd
   }
 }
 
-template <int Dim>
-void Halo<Dim>::advance()
+void Halo::advance()
 {
   if (requests_.empty()) return;
   int done = 0;
   MPI_Testall(int(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE);
 }
 
-template <int Dim>
-void Halo<Dim>::end(NodeGrid<Dim>& grid)
+void Halo::end()
 {
-  if (requests_.empty()) return;
-  const double start = MPI_Wtime();
-  MPI_Waitall(int(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
-  traffic_.waiting_seconds += MPI_Wtime() - start;
-
-  const Values values = values_in(grid, sum_);
-  const std::size_t width = std::size_t(values.count());
+  if (!requests_.empty()) {
+    const double start = MPI_Wtime();
+    MPI_Waitall(int(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+    traffic_.waiting_seconds += MPI_Wtime() - start;
+  }
   total_.assign(own_.size(), 0.0);
+  const auto add = [&](LocalIndex position, const double* from) {
+    double* to = total_.data() + std::size_t(position) * width_;
+    for (std::size_t v = 0; v < width_; ++v) to[v] += from[v];
+  };
   const auto add_own = [&] {
-    for (std::size_t k = 0; k < own_.size(); ++k) total_[k] += own_[k];
+    for (const auto& [to, from] : shared_.own) add(to, own_.data() + std::size_t(from) * width_);
   };
   bool own_added = false;
   for (std::size_t s = 0; s < shared_.sharers.size(); ++s) {
     const SharedNodes::Sharer& sharer = shared_.sharers[s];
     if (!own_added && sharer.rank > rank_) add_own(), own_added = true;
     const double* from = received_[s].data();
-    for (const LocalIndex position : sharer.positions)
-      for (std::size_t v = 0; v < width; ++v) total_[std::size_t(position) * width + v] += *from++;
+    for (const LocalIndex position : sharer.positions) {
+      add(position, from);
+      from += width_;
+    }
     notes_[s] = LocalIndex(*from);
   }
   if (!own_added) add_own();
   for (std::size_t k = 0; k < shared_.nodes.size(); ++k)
-    values.write(shared_.nodes[k], &total_[k * width]);
+    write(shared_.nodes[k], total_.data() + k * width_);
 }
 
-template <int Dim>
-bool Halo<Dim>::untouched(NodeGrid<Dim>& grid) const
+bool Halo::untouched() const
 {
-  const Values values = values_in(grid, sum_);
-  const std::size_t width = std::size_t(values.count());
-  std::vector<double> now(width);
+  std::vector<double> now(width_);
   for (std::size_t k = 0; k < shared_.nodes.size(); ++k) {
-    values.read(shared_.nodes[k], now.data());
+    read(shared_.nodes[k], now.data());
     // By bits: a NaN that has stayed is untouched too.
-    if (std::memcmp(now.data(), &own_[k * width], width * sizeof(double)) != 0) return false;
+    if (std::memcmp(now.data(), own_.data() + k * width_, width_ * sizeof(double)) != 0)
+      return false;
   }
   return true;
 }
-
-template int values_of<2>(NodeSum);
-template int values_of<3>(NodeSum);
-template class Halo<2>;
-template class Halo<3>;
 
 }  // namespace mpm

@@ -16,6 +16,7 @@ Migration<Dim>::Migration(const Decomposition<Dim>& decomposition, int support,
                           std::vector<int> neighbours)
     : comm_(decomposition.comm()),
       geometry_(decomposition.geometry()),
+      periodic_(std::ranges::find(geometry_.periodic, true) != geometry_.periodic.end()),
       local_(decomposition.local(decomposition.rank(), support)),
       neighbours_(std::move(neighbours)),
       packets_(neighbours_.size()),
@@ -23,18 +24,16 @@ Migration<Dim>::Migration(const Decomposition<Dim>& decomposition, int support,
       notes_(neighbours_.size(), 0)
 {
   std::vector<char> near = owned_nodes(decomposition, support);
-  const std::vector<char> own = near;
   grow<Dim>(near, local_.count(), 1, 1);
   target_.assign(near.size(), beyond);
   std::size_t number = 0;
   for_each_index(local_, [&](const IndexVec<Dim>& cell) {
     int& target = target_[number];
-    if (own[number]) {
-      target = home;
-    } else if (near[number]) {
-      const auto at = std::ranges::find(neighbours_, decomposition.owner_of_cell(cell));
-      MPM_ASSERT(at != neighbours_.end());
-      target = int(at - neighbours_.begin());
+    if (near[number]) {
+      const int owner = decomposition.owner_of_cell(cell);
+      const auto at = std::ranges::find(neighbours_, owner);
+      MPM_ASSERT(owner == decomposition.rank() || at != neighbours_.end());
+      target = owner == decomposition.rank() ? home : int(at - neighbours_.begin());
     }
     ++number;
   });
@@ -45,13 +44,18 @@ std::optional<LocalIndex> Migration<Dim>::collect(const BodyPart<Dim>& part, std
 {
   std::optional<LocalIndex> strayed;
   if (gone_.size() <= body) gone_.resize(body + 1);
-  const ParticleStore& particles = part.body.particles;
+  ParticleStore& particles = part.body.particles;
   const LocalIndex end = std::min(part.end * lane_count, particles.size());
   for (LocalIndex p = part.first * lane_count; p < end; ++p) {
     Vec<Dim> position;
     for (int d = 0; d < Dim; ++d) position[d] = particles.motion()(d, p);
     const IndexVec<Dim> cell = geometry_.cell_of(position);
     const int target = local_.contains(cell) ? target_[number_in(local_, cell)] : beyond;
+    if (periodic_ && target != beyond) {
+      const IndexVec<Dim> periods = geometry_.periods_of(cell);
+      for (int d = 0; d < Dim; ++d)
+        if (periods[d] != 0) particles.motion()(d, p) -= periods[d] * geometry_.period(d);
+    }
     if (target == home) continue;
     if (target == beyond) {
       strayed = p;

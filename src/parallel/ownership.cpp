@@ -55,9 +55,10 @@ IndexVec<Dim> Ownership<Dim>::ranks_per_axis() const
 template <int Dim>
 int Ownership<Dim>::owner_of_cell(const IndexVec<Dim>& cell) const
 {
+  const IndexVec<Dim> inside = geometry_.wrapped(cell);
   int number = 0;  // of the part or block
   for (int d = Dim; d-- > 0;) {
-    const LocalIndex at = std::clamp(cell[d], 0, geometry_.nodes[d] - 1);
+    const LocalIndex at = std::clamp(inside[d], 0, geometry_.nodes[d] - 1);
     if (by_cuts()) {
       const auto after = std::ranges::upper_bound(cuts_[d], at);
       number = number * int(cuts_[d].size() - 1) + int(after - cuts_[d].begin()) - 1;
@@ -74,8 +75,11 @@ IndexBox<Dim> Ownership<Dim>::local(int rank, int support) const
   const StencilReach reach(support);
   IndexBox<Dim> box = bounds_[rank];
   for (int d = 0; d < Dim; ++d) {
-    box.lower[d] = std::max(0, box.lower[d] - reach.below);
-    box.upper[d] = std::min(geometry_.nodes[d], box.upper[d] + reach.above);
+    box.lower[d] -= reach.below;
+    box.upper[d] += reach.above;
+    if (geometry_.periodic[d]) continue;
+    box.lower[d] = std::max(0, box.lower[d]);
+    box.upper[d] = std::min(geometry_.nodes[d], box.upper[d]);
   }
   return box;
 }

@@ -32,8 +32,7 @@ PartitionReport report_on(const Ownership<Dim>& ownership, int support,
 {
   PartitionReport report;
   report.imbalance = imbalance_of(loads_of(ownership, particles));
-  const GlobalIndex bytes_per_node =
-      GlobalIndex(sizeof(double)) * values_of<Dim>(NodeSum::mass_momentum_force);
+  constexpr GlobalIndex bytes_per_node = sizeof(double) * NodeFields<Dim>::values_per_node;
   for (int rank = 0; rank < ownership.ranks(); ++rank) {
     const SharedNodes shared = find_shared_nodes(ownership, support, rank);
     report.shared_nodes = std::max(report.shared_nodes, GlobalIndex(shared.nodes.size()));

@@ -59,6 +59,23 @@ void ColumnGroup::permute(std::span<const LocalIndex> order, std::vector<double>
   }
 }
 
+void ColumnGroup::archive(Archive& archive, LocalIndex particles)
+{
+  if (archive.is_loading()) resize(particles);
+  int first = 0;
+  for (const Column& column : columns_) {
+    std::vector<double> values;
+    if (!archive.is_loading())
+      for (LocalIndex p = 0; p < particles; ++p)
+        for (int c = 0; c < column.components; ++c) values.push_back((*this)(first + c, p));
+    archive.list(column.name, values);
+    if (archive.is_loading())
+      for (LocalIndex p = 0, k = 0; p < particles; ++p)
+        for (int c = 0; c < column.components; ++c) (*this)(first + c, p) = values[k++];
+    first += column.components;
+  }
+}
+
 ParticleStore::ParticleStore(std::vector<Column> motion, std::vector<Column> state,
                              std::vector<std::string> zero_in_padding)
     : motion_(std::move(motion)), state_(std::move(state))
@@ -131,6 +148,20 @@ void ParticleStore::permute(std::span<const LocalIndex> order)
   std::vector<GlobalIndex> ids(ids_.size());
   for (std::size_t k = 0; k < order.size(); ++k) ids[k] = ids_[order[k]];
   ids_ = std::move(ids);
+}
+
+void ParticleStore::archive(Archive& archive)
+{
+  archive.list("id", ids_);
+  {
+    const Archive::Section section(archive, "motion");
+    motion_.archive(archive, size());
+  }
+  {
+    const Archive::Section section(archive, "state");
+    state_.archive(archive, size());
+  }
+  if (archive.is_loading()) seal();
 }
 
 void ParticleStore::seal()

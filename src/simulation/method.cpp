@@ -39,15 +39,15 @@ double default_cfl(const scene::Numerics& numerics)
   return share[int(numerics.shape_function)] * stable_cfl(numerics);
 }
 
-UpdateOrderKind update_order_of(const scene::Scene& scene)
+std::unique_ptr<UpdateOrder<2>> make_update_order(const scene::Numerics& numerics)
 {
-  switch (scene.numerics.update_order) {
+  switch (numerics.update_order) {
     case scene::UpdateOrder::musl:
-      return UpdateOrderKind::musl;
+      return make_musl<2>();
     case scene::UpdateOrder::usf:
-      return UpdateOrderKind::usf;
+      return make_usf<2>();
     case scene::UpdateOrder::usl:
-      return UpdateOrderKind::usl;
+      return make_usl<2>();
   }
   throw InputError("unknown update order");
 }

@@ -99,7 +99,7 @@ void add_apparatus(const scene::Scene& scene, const SpecimenModel& specimen, con
     auto made = std::make_unique<RigidWall<2>>(RigidWall<2>::Placement{axis, upper, position},
                                                motion, grip, book);
     RigidWall<2>* pointer = made.get();
-    model.conditions.push_back(std::move(made));
+    model.slots.conditions.push_back(std::move(made));
     return pointer;
   };
   Apparatus apparatus;
@@ -130,7 +130,7 @@ void add_sides(const scene::Scene& scene, const SpecimenModel& specimen, Model& 
     if (motion.sides[k] == scene::Lateral::free) continue;
     const int axis = k / 2;
     const bool upper = k % 2 == 1;
-    model.conditions.push_back(std::make_unique<RigidWall<2>>(
+    model.slots.conditions.push_back(std::make_unique<RigidWall<2>>(
         RigidWall<2>::Placement{axis, upper, upper ? specimen.size[axis] : 0.0}, WallMotion{},
         motion.sides[k] == scene::Lateral::rigid ? WallGrip::stick : WallGrip::slip,
         book_of(scene.numerics)));
@@ -156,9 +156,10 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
           if (lattice(i, j) == std::int8_t(k))
             points.push_back(
                 {(i + 0.5) * layout.location_size[0], (j + 0.5) * layout.location_size[1]});
-      model.conditions.push_back(std::make_unique<RigidBody<2>>(
+      model.slots.conditions.push_back(std::make_unique<RigidBody<2>>(
           std::move(points), Vec<2>(0.5 * layout.location_size[0], 0.5 * layout.location_size[1]),
-          Vec<2>(material.velocity[0], material.velocity[1]), book_of(scene.numerics)));
+          std::array{WallMotion{material.velocity[0]}, WallMotion{material.velocity[1]}},
+          book_of(scene.numerics)));
       continue;
     }
     Body<2>& body = model.bodies.emplace_back(empty_body(material, int(k), scene, *model.transfer));

@@ -58,9 +58,9 @@ std::vector<double> row(const HistoryLine& line, const std::optional<Apparatus>&
 
 }  // namespace
 
-History::History(const std::filesystem::path& folder, const Stepper<2>& stepper,
+History::History(const std::filesystem::path& folder, const Formulation<2>& formulation,
                  std::vector<BoundaryCondition<2>*> conditions, std::optional<Apparatus> apparatus)
-    : comm_(stepper.decomposition().comm()),
+    : comm_(formulation.decomposition().comm()),
       conditions_(std::move(conditions)),
       apparatus_(std::move(apparatus))
 {
@@ -68,30 +68,30 @@ History::History(const std::filesystem::path& folder, const Stepper<2>& stepper,
     if (rank_of(comm_) == 0)
       file_ = std::make_unique<output::HistoryFile>(folder / "history.csv", columns(apparatus_));
   });
-  start_ = sum_particles(comm_, stepper.bodies());
+  start_ = sum_particles(comm_, formulation.bodies());
 }
 
-void History::before_line(const Stepper<2>& stepper)
+void History::before_line(const Formulation<2>& formulation)
 {
-  stress_work_before_ = sum_particles(comm_, stepper.bodies()).stress_work();
+  stress_work_before_ = sum_particles(comm_, formulation.bodies()).stress_work();
 }
 
-void History::observe(const Stepper<2>& stepper)
+void History::observe(const Formulation<2>& formulation)
 {
   if (!apparatus_ || apparatus_->load_cell_body < 0) return;
-  if (stepper.steps() % steps_between_readings != 0) return;
+  if (formulation.steps() % steps_between_readings != 0) return;
   const AxialStress now =
-      axial_stress(stepper.bodies()[apparatus_->load_cell_body], apparatus_->axis);
+      axial_stress(formulation.bodies()[apparatus_->load_cell_body], apparatus_->axis);
   load_cell_.mass_stress += now.mass_stress;
   load_cell_.mass += now.mass;
 }
 
-const HistoryLine& History::record(const Stepper<2>& stepper, double dt)
+const HistoryLine& History::record(const Formulation<2>& formulation, double dt)
 {
   HistoryLine line;
-  line.time = stepper.time();
+  line.time = formulation.time();
   line.time_step = dt;
-  line.sums = sum_particles(comm_, stepper.bodies());
+  line.sums = sum_particles(comm_, formulation.bodies());
 
   // Load cell, then work and impulse of each condition.
   std::vector<double> sums{load_cell_.mass_stress, load_cell_.mass};
@@ -122,31 +122,31 @@ const HistoryLine& History::record(const Stepper<2>& stepper, double dt)
     // + 0.0: no minus before a zero.
     line.piston_stress = towards * piston_impulse * per_area + 0.0;
     line.edge_stress = -towards * edge_impulse * per_area + 0.0;
-    count_outside(stepper, line);
+    count_outside(formulation, line);
   }
   last_time_ = line.time;
   // Velocities, and with them kinetic energy and external work, stand half a step before the
   // stresses that the step leaves, with USF half a step after them (leap-frog): the work of the
   // stresses is taken there, or the balance would be off by half a step's work.
   const double stress_work = line.sums.stress_work();
-  const double half_step = 0.5 * (stress_work - stress_work_before_.value_or(stress_work));
+  const double last_step = stress_work - stress_work_before_.value_or(stress_work);
   stress_work_before_.reset();
   const double surplus = line.sums.kinetic_energy + stress_work +
-                         (stepper.order() == UpdateOrderKind::usf ? half_step : -half_step) -
+                         formulation.stress_moment() * -last_step -
                          line.external_work - start_.kinetic_energy - start_.stress_work();
   const double scale = std::max(std::abs(line.external_work), start_.kinetic_energy);
   line.energy_error = scale > 0 ? surplus / scale : 0;
   const double pushes = impulse_size_ + start_.momentum.norm();
   if (pushes > 0)
     line.momentum_error = (line.sums.momentum - start_.momentum - impulse_).norm() / pushes;
-  check(stepper, line);
+  check(formulation, line);
   agree(comm_, [&] {
     if (file_) file_->append(row(line, apparatus_));
   });
   return lines_.emplace_back(line);
 }
 
-void History::check(const Stepper<2>& stepper, const HistoryLine& line) const
+void History::check(const Formulation<2>& formulation, const HistoryLine& line) const
 {
   // The sums are the same on every rank, so all of them throw or none.
   if (line.sums.particles != start_.particles || line.sums.id_sum != start_.id_sum ||
@@ -155,34 +155,34 @@ void History::check(const Stepper<2>& stepper, const HistoryLine& line) const
         "particles were lost or doubled by step {} (t = {:.6g} s): {} of {} particles, sum of ids "
         "{} instead of {}, mass {:.12g} instead of {:.12g} kg. This is a defect of mpm_par: please "
         "report it with the scene and the number of ranks.",
-        stepper.steps(), line.time, line.sums.particles, start_.particles, line.sums.id_sum,
+        formulation.steps(), line.time, line.sums.particles, start_.particles, line.sums.id_sum,
         start_.id_sum, line.sums.mass, start_.mass));
   if (!std::isfinite(line.sums.kinetic_energy + line.sums.elastic_energy + line.external_work))
     throw NumericalError(fmt::format(
         "the energy is no longer a number at step {} (t = {:.6g} s). Lower numerics.cfl.",
-        stepper.steps(), line.time));
+        formulation.steps(), line.time));
 }
 
-void History::count_outside(const Stepper<2>& stepper, HistoryLine& line)
+void History::count_outside(const Formulation<2>& formulation, HistoryLine& line)
 {
-  const Vec<2>& spacing = stepper.grid().geometry().spacing;
+  const Vec<2>& spacing = formulation.decomposition().geometry().spacing;
   const Penetration piston =
-      find_behind(comm_, stepper.bodies(), {apparatus_->piston}, line.time, spacing);
+      find_behind(comm_, formulation.bodies(), {apparatus_->piston}, line.time, spacing);
   std::vector<const RigidWall<2>*> walls{apparatus_->edge};
   for (const RigidWall<2>* lateral : apparatus_->lateral)
     if (lateral) walls.push_back(lateral);
-  const Penetration outside = find_behind(comm_, stepper.bodies(), walls, line.time, spacing);
+  const Penetration outside = find_behind(comm_, formulation.bodies(), walls, line.time, spacing);
   line.behind_piston = piston.particles;
   line.outside_walls = outside.particles;
   deepest_behind_piston_ = std::max(deepest_behind_piston_, piston.deepest);
-  warn_of(stepper, piston, "the piston's face");
-  warn_of(stepper, outside, "a wall");
+  warn_of(formulation, piston, "the piston's face");
+  warn_of(formulation, outside, "a wall");
 }
 
-void History::warn_of(const Stepper<2>& stepper, const Penetration& found, const char* what) const
+void History::warn_of(const Formulation<2>& formulation, const Penetration& found, const char* what) const
 {
   if (found.ids.empty()) return;
-  spdlog::warn("step {}: particles more than one cell behind {}: ids {}", stepper.steps(), what,
+  spdlog::warn("step {}: particles more than one cell behind {}: ids {}", formulation.steps(), what,
                fmt::join(found.ids, ", "));
 }
 
@@ -242,9 +242,9 @@ std::array<double, 1> pressure(const std::array<double, 6>& s)
   return {-(s[0] + s[1] + s[2]) / 3};
 }
 
-ParticleField make_field(Field field, const Stepper<2>& stepper)
+ParticleField make_field(Field field, const Formulation<2>& formulation)
 {
-  const std::vector<Body<2>>& bodies = stepper.bodies();
+  const std::vector<Body<2>>& bodies = formulation.bodies();
   switch (field) {
     case Field::velocity: {
       std::vector<double> values;
@@ -281,7 +281,7 @@ ParticleField make_field(Field field, const Stepper<2>& stepper)
     }
     case Field::rank:
       return {"rank", "1", 1,
-              std::vector<std::int32_t>(stepper.particles(), stepper.decomposition().rank())};
+              std::vector<std::int32_t>(formulation.particles(), formulation.decomposition().rank())};
   }
   throw InputError("unknown output field");
 }
@@ -294,18 +294,18 @@ Snapshots::Snapshots(const scene::Scene& scene, const std::filesystem::path& fol
 {
 }
 
-void Snapshots::write(const Stepper<2>& stepper, double strain)
+void Snapshots::write(const Formulation<2>& formulation, double strain)
 {
   output::Snapshot snapshot;
-  snapshot.time = stepper.time();
+  snapshot.time = formulation.time();
   snapshot.strain = strain;
-  snapshot.step = stepper.steps();
-  snapshot.position.reserve(3 * count(stepper.bodies()));
-  for (const Body<2>& body : stepper.bodies())
+  snapshot.step = formulation.steps();
+  snapshot.position.reserve(3 * count(formulation.bodies()));
+  for (const Body<2>& body : formulation.bodies())
     for (LocalIndex p = 0; p < body.particles.size(); ++p)
       snapshot.position.insert(snapshot.position.end(),
                                {body.particles.motion()(0, p), body.particles.motion()(1, p), 0.0});
-  for (const Field field : fields_) snapshot.fields.push_back(make_field(field, stepper));
+  for (const Field field : fields_) snapshot.fields.push_back(make_field(field, formulation));
   series_.write(snapshot);
 }
 

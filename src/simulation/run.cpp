@@ -4,7 +4,7 @@
 #include <mpm/output/summary.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/scene/reader.hpp>
-#include <mpm/simulation/load_balance.hpp>
+#include <mpm/stepping/load_balance.hpp>
 #include <mpm/simulation/progress.hpp>
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/recorder.hpp>
@@ -58,10 +58,10 @@ class Run {
         folder_(folder),
         start_(std::chrono::steady_clock::now()),
         model_(make_model(scene, specimen, layout, decomposition)),
-        conditions_(pointers(model_.conditions)),
-        stepper_(decomposition, std::move(model_.transfer), std::move(model_.bodies),
-                 std::move(model_.conditions),
-                 {update_order_of(scene), 1e-24 * layout.largest_particle_mass}),
+        conditions_(pointers(model_.slots.conditions)),
+        stepper_(decomposition, {std::move(model_.transfer), make_update_order(scene.numerics),
+                                 std::move(model_.bodies), std::move(model_.slots),
+                                 1e-24 * layout.largest_particle_mass}),
         balance_(partition_rules(scene), scene.numerics.repartition_interval),
         history_(folder, stepper_, conditions_, model_.apparatus),
         snapshots_(scene, folder, comm_),
@@ -82,7 +82,7 @@ class Run {
     double speed = layout_.largest_speed;
     double dt = 0;
     while (!finished()) {
-      if (stepper_.steps() % Stepper<2>::steps_between_checks == 0) {
+      if (stepper_.steps() % Formulation<2>::steps_between_checks == 0) {
         speed = std::max(layout_.largest_speed, stepper_.agreed().largest_speed);
         const double wave = std::max(layout_.wave_speed, stepper_.agreed().wave_speed);
         dt = layout_.cfl * layout_.geometry.smallest_spacing() / (wave + speed);
@@ -167,7 +167,7 @@ class Run {
   /// Collective.
   Cooperation measure_cooperation() const
   {
-    const Stepper<2>::Counters mine = stepper_.counters();
+    const Counters mine = stepper_.counters();
     const double steps = double(std::max<GlobalIndex>(stepper_.steps(), 1));
     std::array<double, 4> largest{double(mine.messages) / steps, double(mine.bytes) / steps,
                                   mine.waiting_seconds, double(stepper_.particles())};
@@ -181,9 +181,7 @@ class Run {
   /// Particle and node arrays of the rank that has most, bytes.
   GlobalIndex largest_memory() const
   {
-    double bytes = double(stepper_.grid().bytes());
-    for (const Body<2>& body : stepper_.bodies()) bytes += double(body.particles.bytes());
-    return GlobalIndex(largest_over_ranks(comm_, bytes));
+    return GlobalIndex(largest_over_ranks(comm_, double(stepper_.bytes())));
   }
 
   analysis::CompressionProperties properties() const
@@ -294,7 +292,7 @@ class Run {
   std::chrono::steady_clock::time_point start_;
   Model model_;
   std::vector<BoundaryCondition<2>*> conditions_;
-  Stepper<2> stepper_;
+  UpdatedLagrangian<2> stepper_;
   LoadBalance<2> balance_;
   History history_;
   Snapshots snapshots_;

@@ -10,8 +10,9 @@ MAY_INCLUDE = {folder: set(others.split()) | {folder} for folder, others in {
     "materials": "core particles", "transfer": "core shape particles grid materials",
     "conditions": "core particles grid materials transfer", "parallel": PHYSICS, "scene": "core",
     "micrograph": "core scene", "output": "core scene", "analysis": "core output",
-    "simulation": PHYSICS + " parallel scene micrograph output analysis",
-    "main.cpp": PHYSICS + " parallel scene micrograph output analysis simulation"}.items()}
+    "stepping": PHYSICS + " parallel",
+    "simulation": PHYSICS + " parallel stepping scene micrograph output analysis",
+    "main.cpp": PHYSICS + " parallel stepping scene micrograph output analysis simulation"}.items()}
 MPI, TOOLS = "parallel/ output/", "scene/ micrograph/draw_wood analysis/mpm_curve main.cpp"
 WALLS = {r"petsc\w*\.h": "parallel/", r"mpi\.h": MPI, r"metis\.h": "parallel/",
          r"(hdf5|H5\w+)\.h": "output/hdf5_file", r"yaml-cpp/.*": "scene/ micrograph/anatomy",

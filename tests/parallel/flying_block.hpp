@@ -5,7 +5,7 @@
 #include <mpm/conditions/rigid_wall.hpp>
 #include <mpm/materials/hencky.hpp>
 #include <mpm/parallel/session.hpp>
-#include <mpm/simulation/stepper.hpp>
+#include <mpm/stepping/updated_lagrangian.hpp>
 
 #include <array>
 #include <memory>
@@ -18,10 +18,12 @@ inline constexpr double cell = 1e-3;           ///< m
 inline constexpr double youngs_modulus = 1e9;  ///< Pa
 inline constexpr double density = 1000;        ///< kg/m^3
 
+enum class OrderKind { musl, usf, usl };
+
 struct Method {
   ShapeKind shape;
   SchemeKind scheme;
-  UpdateOrderKind order;
+  OrderKind order;
 };
 
 /// As a test's name.
@@ -66,7 +68,7 @@ class BlockRun {
     return {Vec<2>::Zero(), Vec<2>::Constant(cell), (cells.array() + 1).matrix()};
   }
 
-  Stepper<2>& stepper() { return *stepper_; }
+  UpdatedLagrangian<2>& stepper() { return *stepper_; }
 
   /// Collective. At this share of the step in which a wave crosses a cell.
   void advance(int steps, double share, double speed)
@@ -102,8 +104,9 @@ class BlockRun {
   }
 
  private:
-  std::unique_ptr<Stepper<2>> make_stepper(const Method& method, const std::vector<Block>& blocks,
-                                           Conditions conditions)
+  std::unique_ptr<UpdatedLagrangian<2>> make_stepper(const Method& method,
+                                                     const std::vector<Block>& blocks,
+                                                     Conditions conditions)
   {
     auto transfer = make_transfer<2>(method.shape, method.scheme, 2);
     std::vector<Body<2>> bodies;
@@ -113,14 +116,18 @@ class BlockRun {
       bodies.push_back(
           {"block", int(bodies.size()), density, std::move(law),
            ParticleStore(
-               transfer->motion_columns(method.order == UpdateOrderKind::musl), std::move(state),
+               transfer->motion_columns(method.order == OrderKind::musl), std::move(state),
                {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume"})});
       fill(bodies.back(), block);
     }
     constexpr double volume = 0.25 * cell * cell;
-    return std::make_unique<Stepper<2>>(decomposition_, std::move(transfer), std::move(bodies),
-                                        std::move(conditions),
-                                        Stepper<2>::Setup{method.order, 1e-12 * density * volume});
+    auto order = method.order == OrderKind::musl  ? make_musl<2>()
+                 : method.order == OrderKind::usf ? make_usf<2>()
+                                                  : make_usl<2>();
+    UpdatedLagrangian<2>::Setup setup{std::move(transfer), std::move(order), std::move(bodies)};
+    setup.slots.conditions = std::move(conditions);
+    setup.mass_cut = 1e-12 * density * volume;
+    return std::make_unique<UpdatedLagrangian<2>>(decomposition_, std::move(setup));
   }
 
   /// Two by two particles in each cell, 1 m thick.
@@ -146,7 +153,7 @@ class BlockRun {
 
   GlobalIndex particles_ = 0;
   Decomposition<2> decomposition_;
-  std::unique_ptr<Stepper<2>> stepper_;
+  std::unique_ptr<UpdatedLagrangian<2>> stepper_;
 };
 
 }  // namespace mpm::testing_blocks

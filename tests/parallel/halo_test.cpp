@@ -8,6 +8,7 @@
 #include <set>
 #include <thread>
 
+#include "node_grid.hpp"
 #include "ragged_blocks.hpp"
 #include <gmock/gmock.h>
 
@@ -44,14 +45,15 @@ double partial_value(int rank, GlobalIndex node, int slot)
 /// The arrays that sums go to, with every slot filled: what a sum does not concern must stay.
 template <int Dim>
 struct Slots {
-  static constexpr int record = NodeGrid<Dim>::record_width, remap = NodeGrid<Dim>::remap_width;
+  static constexpr int record = NodeFields<Dim>::record_width, remap = NodeFields<Dim>::remap_width;
   static constexpr int first_remap = 1 + record, count = first_remap + remap;
 
   static double& of(NodeGrid<Dim>& grid, LocalIndex node, int slot)
   {
-    if (slot == 0) return grid.mass[node];
-    if (slot < first_remap) return grid.momentum_force[std::size_t(node) * record + slot - 1];
-    return grid.remapped_momentum[std::size_t(node) * remap + slot - first_remap];
+    if (slot == 0) return grid.fields.mass[node];
+    if (slot < first_remap)
+      return grid.fields.momentum_force[std::size_t(node) * record + slot - 1];
+    return grid.fields.remapped_momentum[std::size_t(node) * remap + slot - first_remap];
   }
   static int momentum(int d) { return 1 + d; }
   static int force(int d) { return 1 + Dim + d; }
@@ -62,12 +64,12 @@ struct Slots {
 template <int Dim>
 struct SumCase {
   const char* name;
-  NodeSum sum;
+  std::vector<NodeColumn> columns;
   std::set<int> slots;
 };
 
 template <int Dim>
-std::vector<SumCase<Dim>> node_sums()
+std::vector<SumCase<Dim>> node_sums(NodeFields<Dim>& fields)
 {
   std::set<int> mass{0}, momentum, force, remapped;
   for (int d = 0; d < Dim; ++d) {
@@ -80,10 +82,12 @@ std::vector<SumCase<Dim>> node_sums()
     return a;
   };
   const auto mass_momentum = together(mass, momentum);
-  return {{"mass, momentum, force", NodeSum::mass_momentum_force, together(mass_momentum, force)},
-          {"mass, momentum", NodeSum::mass_momentum, mass_momentum},
-          {"force", NodeSum::force, force},
-          {"remapped momentum", NodeSum::remapped_momentum, remapped}};
+  return {{"mass, momentum, force",
+           {fields.mass_column(), fields.momentum_force_column()},
+           together(mass_momentum, force)},
+          {"mass, momentum", {fields.mass_column(), fields.momentum_column()}, mass_momentum},
+          {"force", {fields.force_column()}, force},
+          {"remapped momentum", {fields.remap_column()}, remapped}};
 }
 
 template <int Dim>
@@ -109,7 +113,7 @@ class Sharing {
   }
 
   int rank() const { return decomposition_.rank(); }
-  Halo<Dim>& halo() { return halo_; }
+  Halo& halo() { return halo_; }
   NodeGrid<Dim>& grid() { return grid_; }
   const Decomposition<Dim>& decomposition() const { return decomposition_; }
 
@@ -132,16 +136,15 @@ class Sharing {
   void expect_serial_sums(int round)
   {
     using S = Slots<Dim>;
-    for (const SumCase<Dim>& sum : node_sums<Dim>()) {
-      for_each_index(grid_.local(), [&](const IndexVec<Dim>& node) {
+    for (const SumCase<Dim>& sum : node_sums<Dim>(grid_.fields)) {
+      for_each_index(grid_.topology.local(), [&](const IndexVec<Dim>& node) {
         for (int slot = 0; slot < S::count; ++slot)
-          S::of(grid_, grid_.index_of(node), slot) =
+          S::of(grid_, grid_.topology.index_of(node), slot) =
               partial_value(rank(), number(node) + round, slot);
       });
-      halo_.begin(sum.sum, grid_);
-      halo_.end(grid_);
+      halo_.sum(sum.columns);
       int wrong = 0;
-      for_each_index(grid_.local(), [&](const IndexVec<Dim>& node) {
+      for_each_index(grid_.topology.local(), [&](const IndexVec<Dim>& node) {
         const std::set<int> together = sharers(node);
         for (int slot = 0; slot < S::count; ++slot) {
           double expected = 0;
@@ -150,7 +153,7 @@ class Sharing {
               expected += partial_value(sharer, number(node) + round, slot);
           else
             expected = partial_value(rank(), number(node) + round, slot);
-          wrong += S::of(grid_, grid_.index_of(node), slot) != expected;
+          wrong += S::of(grid_, grid_.topology.index_of(node), slot) != expected;
         }
       });
       EXPECT_EQ(wrong, 0) << "values of the sum of " << sum.name << " in round " << round;
@@ -162,10 +165,10 @@ class Sharing {
     std::vector<LocalIndex> shared;
     std::set<int> neighbours;
     GlobalIndex sent = 0;
-    for_each_index(grid_.local(), [&](const IndexVec<Dim>& node) {
+    for_each_index(grid_.topology.local(), [&](const IndexVec<Dim>& node) {
       const std::set<int> together = sharers(node);
       if (together.size() < 2 || !together.contains(rank())) return;
-      shared.push_back(grid_.index_of(node));
+      shared.push_back(grid_.topology.index_of(node));
       sent += GlobalIndex(together.size()) - 1;
       neighbours.insert(together.begin(), together.end());
     });
@@ -186,7 +189,7 @@ class Sharing {
 
   int support_;
   Decomposition<Dim> decomposition_;
-  Halo<Dim> halo_;
+  Halo halo_;
   NodeGrid<Dim> grid_;
 };
 
@@ -269,17 +272,17 @@ TEST_P(HaloOfSupport, EveryNodeHasOneOwnerAndTheOwnerReachesIt)
 TEST_P(HaloOfSupport, NotesTravelWithTheSums)
 {
   Sharing<2> sharing({24, 20}, two_rows<2>(), GetParam());
-  Halo<2>& halo = sharing.halo();
+  Halo& halo = sharing.halo();
+  const NodeColumn force = sharing.grid().fields.force_column();
   std::vector<LocalIndex> notes;
   for (const int other : halo.neighbours()) notes.push_back(100 * sharing.rank() + other);
-  halo.begin(NodeSum::force, sharing.grid(), notes);
-  EXPECT_TRUE(halo.untouched(sharing.grid()));
+  halo.begin(std::span(&force, 1), notes);
+  EXPECT_TRUE(halo.untouched());
   halo.advance();
-  halo.end(sharing.grid());
+  halo.end();
   for (std::size_t n = 0; n < notes.size(); ++n)
     EXPECT_EQ(halo.notes()[n], 100 * halo.neighbours()[n] + sharing.rank());
-  halo.begin(NodeSum::force, sharing.grid());
-  halo.end(sharing.grid());
+  halo.sum(std::span(&force, 1));
   EXPECT_THAT(halo.notes(), testing::Each(0));
   EXPECT_EQ(halo.traffic().messages, 2 * GlobalIndex(notes.size()));
 }
@@ -312,7 +315,7 @@ TEST(Halo, OneRankSharesNothing)
 {
   const Decomposition<2> alone(MPI_COMM_SELF, {Vec<2>::Zero(), Vec<2>::Ones(), {12, 9}}, {0, 0}, {},
                                {});
-  const Halo<2> halo(alone, 3);
+  const Halo halo(alone, 3);
   EXPECT_TRUE(halo.shared_nodes().empty());
   EXPECT_TRUE(halo.neighbours().empty());
   EXPECT_EQ(halo.sent_nodes(), 0);

@@ -81,7 +81,7 @@ TEST(MigrationInAStep, ParticleBeyondTheNextCellsIsNamed)
   const IndexVec<2> cells(6 * ranks(), 6);
   const Decomposition<2> decomposition(MPI_COMM_WORLD, Cloud<2>::grid_of(cells), {ranks(), 1}, {},
                                        {});
-  const Halo<2> halo(decomposition, 3);
+  const Halo halo(decomposition, 3);
   Migration<2> migration(decomposition, 3, halo.neighbours());
   Body<2> body{"cloud", 0, 1.0, nullptr,
                ParticleStore(MotionColumns<2, Flip>::columns(false), {}, {"mass"})};

@@ -14,6 +14,7 @@
 #include <numeric>
 #include <random>
 
+#include "node_grid.hpp"
 #include <gmock/gmock.h>
 
 namespace mpm::particle_clouds {
@@ -145,8 +146,9 @@ class Cloud {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       EXPECT_FALSE(migration_.collect(bodies_[b], b).has_value()) << "nobody went too far";
     migration_.send();
-    halo_.begin(NodeSum::mass_momentum, grid_, migration_.notes());
-    halo_.end(grid_);
+    const NodeColumn mass = grid_.fields.mass_column();
+    halo_.begin(std::span(&mass, 1), migration_.notes());
+    halo_.end();
     const auto outcome = migration_.finish(bodies_, halo_.notes());
     Redistributed result{outcome.sent, {}};
     for (std::size_t b = 0; b < bodies_.size(); ++b)
@@ -252,7 +254,7 @@ class Cloud {
   }
 
   Decomposition<Dim> decomposition_;
-  Halo<Dim> halo_;
+  Halo halo_;
   Migration<Dim> migration_;
   NodeGrid<Dim> grid_;
   Path<Dim> path_;

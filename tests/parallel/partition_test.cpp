@@ -3,7 +3,7 @@
 #include <mpm/core/error.hpp>
 #include <mpm/parallel/halo.hpp>
 #include <mpm/parallel/partition_report.hpp>
-#include <mpm/simulation/load_balance.hpp>
+#include <mpm/stepping/load_balance.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -114,7 +114,7 @@ TEST(PartitionOfBlocks, PartsKeepTheRanksThatHaveMostOfTheirWork)
 template <int Dim>
 void expect_report_of_the_halo(const Ownership<Dim>& ownership, int support)
 {
-  const Halo<Dim> halo({MPI_COMM_WORLD, ownership}, support);
+  const Halo halo(Decomposition<Dim>(MPI_COMM_WORLD, ownership), support);
   std::array<double, 3> largest{double(halo.shared_nodes().size()),
                                 double(halo.neighbours().size()),
                                 8.0 * (1 + 2 * Dim) * double(halo.sent_nodes())};
@@ -152,8 +152,8 @@ TEST(LoadBalance, BordersFollowTheWorkAndStayWhereNothingIsGained)
   using namespace testing_blocks;
   const GridGeometry<2> grid = BlockRun::grid_of({70, 70});
   BlockRun run({MPI_COMM_WORLD, grid, {0, 0}, {}, {}},
-               {ShapeKind::gimp, SchemeKind::flip, UpdateOrderKind::musl},
-               {{{4, 4}, {30, 30}, {1, 1}}}, {});
+               {ShapeKind::gimp, SchemeKind::flip, OrderKind::musl}, {{{4, 4}, {30, 30}, {1, 1}}},
+               {});
   run.stepper().step(1e-9);
   run.stepper().check();
   if (ranks() > 1) {

@@ -9,19 +9,20 @@ namespace mpm::performance {
 namespace {
 
 template <int Dim>
-void sum_halo(benchmark::State& state, NodeSum sum)
+using Columns = std::vector<NodeColumn> (*)(NodeFields<Dim>& fields);
+
+template <int Dim>
+void sum_halo(benchmark::State& state, Columns<Dim> columns_of)
 {
   constexpr int support = 3;
   const Decomposition<Dim> decomposition(MPI_COMM_WORLD, geometry<Dim>(cells_per_axis<Dim>),
                                          IndexVec<Dim>::Zero(), {}, {});
-  Halo<Dim> halo(decomposition, support);
-  NodeGrid<Dim> grid(decomposition.geometry(), decomposition.local(decomposition.rank(), support),
-                     decomposition.owned(decomposition.rank()), 0);
+  Halo halo(decomposition, support);
+  NodeFields<Dim> fields(LocalIndex(decomposition.local(decomposition.rank(), support).size()),
+                         {.remap = true}, 0);
+  const std::vector<NodeColumn> columns = columns_of(fields);
   MPI_Barrier(MPI_COMM_WORLD);
-  for (auto _ : state) {
-    halo.begin(sum, grid);
-    halo.end(grid);
-  }
+  for (auto _ : state) halo.sum(columns);
   const double shared = double(halo.shared_nodes().size());
   state.counters["shared_nodes"] = shared;
   state.counters["ns_per_node"] = benchmark::Counter(
@@ -32,14 +33,18 @@ void sum_halo(benchmark::State& state, NodeSum sum)
 template <int Dim>
 void register_sums()
 {
-  const auto add = [](const char* name, NodeSum sum) {
-    benchmark::RegisterBenchmark((dimension<Dim>() + "/halo/" + name).c_str(), sum_halo<Dim>, sum)
+  const auto add = [](const char* name, Columns<Dim> columns) {
+    benchmark::RegisterBenchmark((dimension<Dim>() + "/halo/" + name).c_str(), sum_halo<Dim>,
+                                 columns)
         ->Iterations(Dim == 2 ? 2000 : 200)
         ->UseRealTime()
         ->Unit(benchmark::kMicrosecond);
   };
-  add("mass_momentum_force", NodeSum::mass_momentum_force);
-  add("remapped_momentum", NodeSum::remapped_momentum);
+  add("mass_momentum_force", [](NodeFields<Dim>& fields) -> std::vector<NodeColumn> {
+    return {fields.mass_column(), fields.momentum_force_column()};
+  });
+  add("remapped_momentum",
+      [](NodeFields<Dim>& fields) -> std::vector<NodeColumn> { return {fields.remap_column()}; });
 }
 
 class Silent : public benchmark::BenchmarkReporter {

@@ -1,5 +1,6 @@
 // Nanoseconds per particle of each pass, of the material update and of the sort, by themselves.
 #include "benchmark_block.hpp"
+#include "node_grid.hpp"
 #include <benchmark/benchmark.h>
 
 namespace mpm::performance {
@@ -30,18 +31,18 @@ struct Block {
         grid(geometry<Dim>(cells_per_axis<Dim>), whole_grid(), whole_grid(), 0),
         body(make_body<Dim>(*transfer, musl, c.plastic, cells_per_axis<Dim>, rate))
   {
-    for (LocalIndex node = 0; node < grid.size(); ++node) {
-      grid.touch(node);
+    for (LocalIndex node = 0; node < grid.topology.size(); ++node) {
+      grid.topology.touch(node);
       for (int d = 0; d < Dim; ++d) {
-        const LocalIndex index = node / grid.stride(d) % grid.local().count()[d];
-        const double v = -rate * grid.geometry().node_position(d, index);
-        grid.updated_of(node)[d] = v;
-        grid.set_gradient_velocity(node, d, v);
+        const LocalIndex index = node / grid.topology.stride(d) % grid.topology.local().count()[d];
+        const double v = -rate * grid.topology.geometry().node_position(d, index);
+        grid.fields.updated_of(node)[d] = v;
+        grid.fields.set_gradient_velocity(node, d, v);
       }
     }
     grid.end_activity(transfer->support());
     sort();
-    transfer->usf_stress(body, grid, past_yield / rate);
+    transfer->usf_stress(body, grid.topology, grid.fields, past_yield / rate);
   }
 
   static IndexBox<Dim> whole_grid()
@@ -51,8 +52,8 @@ struct Block {
 
   void sort()
   {
-    transfer->first_nodes(body.particles, grid, nodes);
-    order_by_node(nodes, grid.size(), counts, order);
+    transfer->first_nodes(body.particles, grid.topology, nodes);
+    order_by_node(nodes, grid.topology.size(), counts, order);
     body.particles.permute(order);
     body.particles.seal();
   }
@@ -63,17 +64,17 @@ struct Block {
     const MoveBounds<Dim> bounds{-far, far};
     switch (pass) {
       case Pass::musl_velocity:
-        return transfer->musl_velocity(body, grid);
+        return transfer->musl_velocity(body, grid.topology, grid.fields);
       case Pass::musl_stress:
-        transfer->musl_stress(body, grid, dt, bounds);
+        transfer->musl_stress(body, grid.topology, grid.fields, dt, bounds);
         return;
       case Pass::usf_stress:
-        return transfer->usf_stress(body, grid, dt);
+        return transfer->usf_stress(body, grid.topology, grid.fields, dt);
       case Pass::usf_velocity:
-        transfer->usf_velocity(body, grid, dt, bounds);
+        transfer->usf_velocity(body, grid.topology, grid.fields, dt, bounds);
         return;
       case Pass::usl:
-        transfer->usl(body, grid, dt, bounds);
+        transfer->usl(body, grid.topology, grid.fields, dt, bounds);
         return;
     }
   }

@@ -1,7 +1,7 @@
-// Nanoseconds per particle of a whole step through Stepper, one rank: grid update, passes, checks.
+// Nanoseconds per particle of a whole step one rank: grid update, passes, checks.
 #include <mpm/conditions/rigid_wall.hpp>
 #include <mpm/parallel/session.hpp>
-#include <mpm/simulation/stepper.hpp>
+#include <mpm/stepping/updated_lagrangian.hpp>
 
 #include "benchmark_block.hpp"
 #include <benchmark/benchmark.h>
@@ -12,21 +12,28 @@ namespace {
 constexpr double rate = 5e4;  // 1/s: a strain of 5e-5 in each step
 constexpr double dt = 1e-9;   // s
 
+enum class OrderKind { musl, usf, usl };
 constexpr const char* order_names[] = {"musl", "usf", "usl"};
 
+template <int Dim>
+std::unique_ptr<UpdateOrder<Dim>> make_order(OrderKind kind)
+{
+  if (kind == OrderKind::musl) return make_musl<Dim>();
+  return kind == OrderKind::usf ? make_usf<Dim>() : make_usl<Dim>();
+}
+
 /// These take the gradient of a velocity that the force has just changed: no stable step.
-bool unstable(const Case& c, UpdateOrderKind order)
+bool unstable(const Case& c, OrderKind order)
 {
   return c.shape == ShapeKind::linear &&
-         (order == UpdateOrderKind::usl || c.scheme == SchemeKind::apic ||
-          c.scheme == SchemeKind::tpic);
+         (order == OrderKind::usl || c.scheme == SchemeKind::apic || c.scheme == SchemeKind::tpic);
 }
 
 /// A block whose lower sides rest on walls and whose upper sides are pressed towards them.
 template <int Dim>
 class PressedBlock {
  public:
-  PressedBlock(const Case& c, UpdateOrderKind order)
+  PressedBlock(const Case& c, OrderKind order)
       : parameters(c),
         order(order),
         decomposition_(MPI_COMM_WORLD, geometry<Dim>(cells_per_axis<Dim>), IndexVec<Dim>::Zero(),
@@ -40,16 +47,16 @@ class PressedBlock {
   LocalIndex particles() const { return stepper_->particles(); }
 
   const Case parameters;
-  const UpdateOrderKind order;
+  const OrderKind order;
 
  private:
-  std::unique_ptr<Stepper<Dim>> make_stepper() const
+  std::unique_ptr<UpdatedLagrangian<Dim>> make_stepper() const
   {
     constexpr LocalIndex cells = cells_per_axis<Dim>;
     auto transfer = make_transfer<Dim>(parameters.shape, parameters.scheme, 2);
     std::vector<Body<Dim>> bodies;
     bodies.push_back(
-        make_body<Dim>(*transfer, order == UpdateOrderKind::musl, parameters.plastic, cells, rate));
+        make_body<Dim>(*transfer, order == OrderKind::musl, parameters.plastic, cells, rate));
     std::vector<std::unique_ptr<BoundaryCondition<Dim>>> walls;
     const ReactionBook book =
         parameters.scheme == SchemeKind::flip ? ReactionBook::increments : ReactionBook::velocities;
@@ -61,13 +68,15 @@ class PressedBlock {
           std::make_unique<RigidWall<Dim>>(typename RigidWall<Dim>::Placement{d, true, length},
                                            WallMotion{-rate * length, 0}, WallGrip::slip, book));
     }
-    return std::make_unique<Stepper<Dim>>(
-        decomposition_, std::move(transfer), std::move(bodies), std::move(walls),
-        typename Stepper<Dim>::Setup{order, 1e-24 * density * std::pow(spacing, Dim)});
+    typename UpdatedLagrangian<Dim>::Setup setup{std::move(transfer), make_order<Dim>(order),
+                                                 std::move(bodies)};
+    setup.slots.conditions = std::move(walls);
+    setup.mass_cut = 1e-24 * density * std::pow(spacing, Dim);
+    return std::make_unique<UpdatedLagrangian<Dim>>(decomposition_, std::move(setup));
   }
 
   Decomposition<Dim> decomposition_;
-  std::unique_ptr<Stepper<Dim>> stepper_;
+  std::unique_ptr<UpdatedLagrangian<Dim>> stepper_;
 };
 
 /// The block of the last case, which its repetitions take as it is.
@@ -75,7 +84,7 @@ template <int Dim>
 std::unique_ptr<PressedBlock<Dim>> kept;
 
 template <int Dim>
-PressedBlock<Dim>& block_of(const Case& c, UpdateOrderKind order)
+PressedBlock<Dim>& block_of(const Case& c, OrderKind order)
 {
   if (!kept<Dim> || kept<Dim>->parameters != c || kept<Dim>->order != order) {
     kept<Dim>.reset();
@@ -87,8 +96,7 @@ PressedBlock<Dim>& block_of(const Case& c, UpdateOrderKind order)
 template <int Dim>
 void register_steps()
 {
-  for (const UpdateOrderKind order :
-       {UpdateOrderKind::musl, UpdateOrderKind::usf, UpdateOrderKind::usl})
+  for (const OrderKind order : {OrderKind::musl, OrderKind::usf, OrderKind::usl})
     for_each_case([order](const Case& c) {
       if (unstable(c, order)) return;
       benchmark::RegisterBenchmark(

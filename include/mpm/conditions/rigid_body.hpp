@@ -1,29 +1,40 @@
 #pragma once
 #include <mpm/conditions/boundary_condition.hpp>
+#include <mpm/conditions/wall_motion.hpp>
 
+#include <array>
+#include <unordered_map>
 #include <vector>
 
 namespace mpm {
 
-/// A body of material `rigid` that moves with constant velocity: every node on or inside it moves
-/// with it (sticking), as behind a rigid wall. Its points are known at all times without being
-/// stepped, so every rank keeps all of them and looks at those in its own nodes' range.
+/// A body of material `rigid` that moves with a prescribed velocity: every node on or inside it
+/// moves with it (sticking), as behind a rigid wall. Its points are known at all times without
+/// being stepped, so every rank keeps all of them, and asks them about its own nodes only.
 template <int Dim>
 class RigidBody final : public BoundaryCondition<Dim> {
  public:
   /// `points`: centres at time 0 of boxes with half edges `half_size` that fill the body, m.
-  RigidBody(std::vector<Vec<Dim>> points, const Vec<Dim>& half_size, const Vec<Dim>& velocity,
-            ReactionBook book);
+  RigidBody(const std::vector<Vec<Dim>>& points, const Vec<Dim>& half_size,
+            const std::array<WallMotion, Dim>& motion, ReactionBook book);
 
-  void constrain_updated(NodeGrid<Dim>& grid, double time, double dt) override;
-  void constrain_gradient(NodeGrid<Dim>& grid, double time, double dt) override;
+  void constrain_updated(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
+                         double dt) override;
+  void constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
+                          double dt) override;
 
  private:
-  void mark_nodes(const NodeGrid<Dim>& grid, double time);
+  void find_nodes(const Nodes<Dim>& nodes, double time);
+  /// Whether a place, counted from where the body was at time 0, is on or inside a box.
+  bool holds(const Vec<Dim>& place, const Vec<Dim>& tolerance) const;
+  IndexVec<Dim> bucket_of(const Vec<Dim>& place) const;
+  static GlobalIndex key_of(const IndexVec<Dim>& bucket);
 
-  std::vector<Vec<Dim>> points_;
-  Vec<Dim> half_size_, velocity_;
-  std::vector<LocalIndex> nodes_;  ///< inside the body, active, ascending
+  std::unordered_map<GlobalIndex, std::vector<Vec<Dim>>> buckets_;  ///< of the size of a box
+  Region<Dim> bounds_;                                              ///< of all boxes at time 0
+  Vec<Dim> half_size_;
+  std::array<WallMotion, Dim> motion_;
+  std::vector<LocalIndex> near_, found_;  ///< found: nodes on and inside the body, ascending
 };
 
 }  // namespace mpm

@@ -1,18 +1,8 @@
 #pragma once
 #include <mpm/conditions/boundary_condition.hpp>
+#include <mpm/conditions/wall_motion.hpp>
 
 namespace mpm {
-
-/// Constant speed after an optional smooth start: V(t) = V (3 s^2 - 2 s^3), s = t / ramp_time.
-struct WallMotion {
-  double speed = 0;      ///< m/s along the axis, signed
-  double ramp_time = 0;  ///< s
-
-  double velocity(double time) const;
-  double displacement(double time) const;
-  /// Time at which the displacement reaches `length` (same sign as the speed).
-  double time_of(double length) const;
-};
 
 enum class WallGrip {
   stick,  ///< all components follow the wall
@@ -32,8 +22,10 @@ class RigidWall final : public BoundaryCondition<Dim> {
 
   RigidWall(const Placement& placement, const WallMotion& motion, WallGrip grip, ReactionBook book);
 
-  void constrain_updated(NodeGrid<Dim>& grid, double time, double dt) override;
-  void constrain_gradient(NodeGrid<Dim>& grid, double time, double dt) override;
+  void constrain_updated(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
+                         double dt) override;
+  void constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
+                          double dt) override;
 
   const Placement& placement() const { return placement_; }
   const WallMotion& motion() const { return motion_; }
@@ -47,12 +39,12 @@ class RigidWall final : public BoundaryCondition<Dim> {
   }
 
  private:
-  template <class Visit>
-  void for_each_node(const NodeGrid<Dim>& grid, double time, Visit visit) const;
+  void find_nodes(const Nodes<Dim>& nodes, double time);
 
   Placement placement_;
   WallMotion motion_;
   WallGrip grip_;
+  std::vector<LocalIndex> found_;  ///< nodes at the face and behind it
 };
 
 }  // namespace mpm

@@ -54,6 +54,7 @@ struct Body {
   double density = 0;
   std::unique_ptr<Law<Dim>> law;
   ParticleStore particles;
+  int field = 0;  ///< velocity field of the nodes that it moves in
 };
 
 }  // namespace mpm

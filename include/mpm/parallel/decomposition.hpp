@@ -4,6 +4,8 @@
 #include <mpm/parallel/ownership.hpp>
 #include <mpm/parallel/weighted_cuts.hpp>
 
+#include <memory>
+
 #include <mpi.h>
 
 namespace mpm {
@@ -36,7 +38,7 @@ class Decomposition {
   Ownership<Dim> ownership_;
 };
 
-/// Which nodes of this rank's local box it owns, local numbering.
+/// Which nodes of this rank's local box it owns, local numbering; images are owned by nobody.
 template <int Dim>
 std::vector<char> owned_nodes(const Decomposition<Dim>& decomposition, int support);
 

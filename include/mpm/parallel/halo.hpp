@@ -1,6 +1,7 @@
 #pragma once
 /// Sums of node values over the ranks that share the nodes.
 
+#include <mpm/grid/node_fields.hpp>
 #include <mpm/parallel/decomposition.hpp>
 #include <mpm/parallel/shared_nodes.hpp>
 
@@ -8,43 +9,46 @@
 
 namespace mpm {
 
-/// What one exchange sums.
-enum class NodeSum {
-  mass_momentum_force,  ///< MUSL, USL
-  mass_momentum,        ///< USF
-  force,                ///< USF
-  remapped_momentum     ///< MUSL
-};
-
-/// Values per node that a sum sends.
-template <int Dim>
-int values_of(NodeSum sum);
-
 /// Every rank whose stencils reach a node holds a partial sum there. One round of messages gives
 /// each sharer all partial sums, and each adds them in the order of the ranks: the same bits on
 /// all of them, and no second round to copy results back. Only shared nodes are packed; there is
 /// one message per neighbour, and work on other nodes may go on between `begin` and `end`.
-template <int Dim>
+///
+/// What the values mean is the caller's business: any columns over the local nodes can be summed.
 class Halo {
  public:
-  Halo(const Decomposition<Dim>& decomposition, int support);
+  Halo(MPI_Comm comm, SharedNodes shared);
+  /// Of this rank's part.
+  template <int Dim>
+  Halo(const Decomposition<Dim>& decomposition, int support)
+      : Halo(decomposition.comm(),
+             find_shared_nodes(decomposition.ownership(), support, decomposition.rank()))
+  {
+  }
 
   /// Shared nodes of this rank, local numbering, ascending.
   const std::vector<LocalIndex>& shared_nodes() const { return shared_.nodes; }
-  /// Ranks that share nodes with this one, ascending.
+  /// Other ranks that share nodes with this one, ascending.
   std::vector<int> neighbours() const;
 
-  /// Sends this rank's partial sums. `notes`: a number for each neighbour that travels along (none
-  /// given: 0). Every neighbour calls the same.
-  void begin(NodeSum sum, NodeGrid<Dim>& grid, std::span<const LocalIndex> notes = {});
+  /// Sends this rank's partial sums in these columns, which stay where they are until `end`.
+  /// `notes`: a number for each neighbour that travels along (none given: 0). Every neighbour calls
+  /// the same.
+  void begin(std::span<const NodeColumn> columns, std::span<const LocalIndex> notes = {});
   /// Lets messages move on during long work: large ones need both sides' attention.
   void advance();
   /// Waits for the others' partial sums and adds all.
-  void end(NodeGrid<Dim>& grid);
+  void end();
+  /// Both at once.
+  void sum(std::span<const NodeColumn> columns)
+  {
+    begin(columns);
+    end();
+  }
   /// What the neighbours noted in the last exchange.
   std::span<const LocalIndex> notes() const { return notes_; }
   /// Whether shared nodes still hold what `begin` sent.
-  bool untouched(NodeGrid<Dim>& grid) const;
+  bool untouched() const;
 
   struct Traffic {
     GlobalIndex messages = 0, bytes = 0;  ///< sent by this rank since the start
@@ -55,10 +59,14 @@ class Halo {
   GlobalIndex sent_nodes() const { return shared_.sent_nodes(); }
 
  private:
+  void read(LocalIndex node, double* to) const;
+  void write(LocalIndex node, const double* from) const;
+
   MPI_Comm comm_;
   int rank_;
   SharedNodes shared_;
-  NodeSum sum_{};
+  std::vector<NodeColumn> columns_;
+  std::size_t width_ = 0;  ///< values per node of all columns
   std::vector<double> own_, total_;
   std::vector<std::vector<double>> sent_, received_;  ///< per neighbour; the last one is the note
   std::vector<MPI_Request> requests_;

@@ -9,8 +9,9 @@
 namespace mpm {
 
 /// In a step a particle gets no farther than the cells next to this rank's own, so its new owner is
-/// a neighbour in the halo. How much each neighbour has to expect travels as a note with the halo's
-/// message: no message at all while nobody leaves, no collective ever.
+/// a neighbour in the halo. Who leaves a periodic axis at one end enters it at the other. How much
+/// each neighbour has to expect travels as a note with the halo's message: no message at all while
+/// nobody leaves, no collective ever.
 template <int Dim>
 class Migration {
  public:
@@ -18,6 +19,7 @@ class Migration {
   Migration(const Decomposition<Dim>& decomposition, int support, std::vector<int> neighbours);
 
   /// Packs the particles of a part that are in another rank's cell; bodies in ascending order.
+  /// Those that crossed the end of a periodic axis are moved back by its period first.
   /// Returns a particle that is beyond all neighbouring cells, if there is one.
   std::optional<LocalIndex> collect(const BodyPart<Dim>& part, std::size_t body);
   /// Sends what was collected; `notes` are then what the neighbours have to expect.
@@ -42,6 +44,7 @@ class Migration {
   static constexpr int beyond = -2, home = -1;
   MPI_Comm comm_;
   GridGeometry<Dim> geometry_;
+  bool periodic_;  ///< any axis
   IndexBox<Dim> local_;
   std::vector<int> neighbours_;
   std::vector<int> target_;      ///< per cell of `local_`: home, place in `neighbours_`, or beyond

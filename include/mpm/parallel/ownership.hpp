@@ -1,7 +1,7 @@
 #pragma once
 /// Which rank owns which cells and nodes of the background grid, for any number of ranks.
 
-#include <mpm/grid/node_grid.hpp>
+#include <mpm/grid/grid_geometry.hpp>
 
 #include <array>
 #include <vector>
@@ -31,12 +31,12 @@ class Ownership {
   IndexVec<Dim> ranks_per_axis() const;
   LocalIndex block_edge() const { return edge_; }
 
-  /// Owner of a cell or node; outside the grid the nearest one's.
+  /// Owner of a cell or node, also of an image; outside the grid the nearest one's.
   int owner_of_cell(const IndexVec<Dim>& cell) const;
   /// The smallest box that holds all nodes that a rank owns: with cuts these and no others.
   const IndexBox<Dim>& owned(int rank) const { return bounds_[rank]; }
   /// `owned` and all that the stencils of particles in it reach, also after a step in which they
-  /// have moved by up to one cell beyond it.
+  /// have moved by up to one cell beyond it. On periodic axes it may go beyond the grid.
   IndexBox<Dim> local(int rank, int support) const;
 
  private:

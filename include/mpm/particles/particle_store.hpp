@@ -7,6 +7,7 @@
 /// Lanes behind the last particle are padding: they sit where a real particle sits, but carry no
 /// mass and no volume, so that kernels need no special case for them.
 
+#include <mpm/core/archive.hpp>
 #include <mpm/core/lane_vector.hpp>
 #include <mpm/core/lanes.hpp>
 #include <mpm/core/types.hpp>
@@ -54,6 +55,8 @@ class ColumnGroup {
   /// Particle k becomes the one that was at order[k]. `scratch` is for reuse.
   void permute(std::span<const LocalIndex> order, std::vector<double>& scratch);
   std::size_t bytes() const { return data_.capacity() * sizeof(double); }
+  /// Of so many particles, column by column.
+  void archive(Archive& archive, LocalIndex particles);
 
  private:
   std::vector<Column> columns_;
@@ -95,6 +98,8 @@ class ParticleStore {
   {
     return motion_.bytes() + state_.bytes() + ids_.capacity() * sizeof(GlobalIndex);
   }
+  /// All particles in their order.
+  void archive(Archive& archive);
 
  private:
   ColumnGroup motion_, state_;

@@ -5,8 +5,7 @@
 #include <mpm/micrograph/specimen.hpp>
 #include <mpm/parallel/partition.hpp>
 #include <mpm/scene/scene.hpp>
-#include <mpm/simulation/stepper.hpp>
-#include <mpm/transfer/transfer.hpp>
+#include <mpm/stepping/updated_lagrangian.hpp>
 
 namespace mpm {
 
@@ -52,7 +51,7 @@ Layout make_layout(const scene::Scene& scene, const micrograph::SpecimenModel& s
 /// particles, then the load cell.
 struct Model {
   std::vector<Body<2>> bodies;
-  std::vector<std::unique_ptr<BoundaryCondition<2>>> conditions;
+  Slots<2> slots;
   std::optional<Apparatus> apparatus;
   std::unique_ptr<Transfer<2>> transfer;
 };
@@ -64,7 +63,7 @@ Model make_model(const scene::Scene& scene, const micrograph::SpecimenModel& spe
 std::unique_ptr<Law<2>> make_law(const scene::Material& material, scene::Plane plane);
 
 double default_cfl(const scene::Numerics& numerics);
-UpdateOrderKind update_order_of(const scene::Scene& scene);
+std::unique_ptr<UpdateOrder<2>> make_update_order(const scene::Numerics& numerics);
 std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int particles_per_cell);
 
 /// Cuts across the piston's travel come first.

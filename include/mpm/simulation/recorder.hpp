@@ -38,26 +38,26 @@ class History {
  public:
   /// Opens folder/history.csv on rank 0 and measures the start. `conditions` live as long as this.
   /// Collective.
-  History(const std::filesystem::path& folder, const Stepper<2>& stepper,
+  History(const std::filesystem::path& folder, const Formulation<2>& formulation,
           std::vector<BoundaryCondition<2>*> conditions, std::optional<Apparatus> apparatus);
 
   /// Before the step that a line is recorded after: the energy balance needs both sides of it.
   /// Collective.
-  void before_line(const Stepper<2>& stepper);
+  void before_line(const Formulation<2>& formulation);
   /// After every step: the load cell's reading goes into the mean.
-  void observe(const Stepper<2>& stepper);
+  void observe(const Formulation<2>& formulation);
   /// Measures, checks and writes a line. Collective. Throws NumericalError on every rank if
   /// particles were lost or doubled or a number is no longer one; warns when a particle is more
   /// than one cell behind a face.
-  const HistoryLine& record(const Stepper<2>& stepper, double dt);
+  const HistoryLine& record(const Formulation<2>& formulation, double dt);
 
   const std::vector<HistoryLine>& lines() const { return lines_; }
   double deepest_behind_piston() const { return deepest_behind_piston_; }  ///< m, whole run
 
  private:
-  void check(const Stepper<2>& stepper, const HistoryLine& line) const;
-  void count_outside(const Stepper<2>& stepper, HistoryLine& line);
-  void warn_of(const Stepper<2>& stepper, const Penetration& found, const char* what) const;
+  void check(const Formulation<2>& formulation, const HistoryLine& line) const;
+  void count_outside(const Formulation<2>& formulation, HistoryLine& line);
+  void warn_of(const Formulation<2>& formulation, const Penetration& found, const char* what) const;
 
   MPI_Comm comm_;
   std::vector<BoundaryCondition<2>*> conditions_;
@@ -80,7 +80,7 @@ class Snapshots {
   /// Collective.
   Snapshots(const scene::Scene& scene, const std::filesystem::path& folder, MPI_Comm comm);
   /// Collective.
-  void write(const Stepper<2>& stepper, double strain);
+  void write(const Formulation<2>& formulation, double strain);
   int written() const { return series_.written(); }
 
  private:

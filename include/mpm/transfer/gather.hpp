@@ -2,6 +2,7 @@
 /// From the grid to one block of particles.
 
 #include <mpm/core/transpose.hpp>
+#include <mpm/grid/node_fields.hpp>
 #include <mpm/transfer/stencil.hpp>
 
 namespace mpm {
@@ -20,15 +21,16 @@ template <int Width, int Count>
 /// dv_i/dx_j at i + Dim * j, 1/s, of the grid's gradient velocity.
 template <int Dim, class Shape>
 [[gnu::always_inline]] inline void gather_gradient(const Stencil<Dim, Shape>& stencil,
-                                                   const NodeGrid<Dim>& grid, double* gradient)
+                                                   const GridTopology<Dim>& grid,
+                                                   const NodeFields<Dim>& fields, double* gradient)
 {
   constexpr int n = Shape::support;
-  constexpr int width = NodeGrid<Dim>::velocity_width;
+  constexpr int width = NodeFields<Dim>::velocity_width;
   constexpr int row_width = Dim == 2 ? 4 : 12;
   const auto &w = stencil.weight, &g = stencil.gradient;
   alignas(lane_alignment) double row_of[lane_count][row_width];
   for (int lane = 0; lane < lane_count; ++lane) {
-    const double* node = grid.gradient_velocity.data() + std::size_t(stencil.base[lane]) * width;
+    const double* node = fields.gradient_velocity.data() + std::size_t(stencil.base[lane]) * width;
     if constexpr (Dim == 2) {
       // {vx, vy, vx, vy} times {g, g, w, w} along x, then {w, w, g, g} along y: both columns of
       // the gradient in one register.
@@ -79,12 +81,12 @@ template <int Dim, class Shape>
 /// c the affine weights.
 template <bool Affine, int Dim, class Shape>
 [[gnu::always_inline]] inline void gather_velocity(
-    const Stencil<Dim, Shape>& stencil, const NodeGrid<Dim>& grid,
-    const typename Stencil<Dim, Shape>::Columns& affine_weight, Lanes (&velocity)[2 * Dim],
-    Lanes (&affine)[Dim * Dim])
+    const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& grid,
+    const NodeFields<Dim>& fields, const typename Stencil<Dim, Shape>::Columns& affine_weight,
+    Lanes (&velocity)[2 * Dim], Lanes (&affine)[Dim * Dim])
 {
   constexpr int n = Shape::support;
-  constexpr int width = NodeGrid<Dim>::record_width;
+  constexpr int width = NodeFields<Dim>::record_width;
   using R = Record<width>;
   const auto& w = stencil.weight;
   const auto& c = affine_weight;
@@ -92,7 +94,7 @@ template <bool Affine, int Dim, class Shape>
   alignas(lane_alignment) double out_affine[Dim][lane_count][width];
   constexpr int layers = Dim == 3 ? n : 1;
   for (int lane = 0; lane < lane_count; ++lane) {
-    const double* node = grid.updated.data() + std::size_t(stencil.base[lane]) * width;
+    const double* node = fields.updated.data() + std::size_t(stencil.base[lane]) * width;
     R total = 0.0, total_affine[Dim];
     for (R& t : total_affine) t = 0.0;
     for (int k = 0; k < layers; ++k) {

@@ -28,7 +28,7 @@ class KernelTransfer final : public Transfer<Dim> {
   std::vector<Column> motion_columns(bool musl) const override { return Columns::columns(musl); }
   int support() const override { return Shape::support; }
 
-  void first_nodes(const ParticleStore& particles, const NodeGrid<Dim>& grid,
+  void first_nodes(const ParticleStore& particles, const GridTopology<Dim>& grid,
                    std::vector<LocalIndex>& nodes) const override
   {
     const GridFrame<Dim> frame(grid);
@@ -43,50 +43,71 @@ class KernelTransfer final : public Transfer<Dim> {
     nodes.resize(particles.size());
   }
 
-  void prime(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, bool with_force) const override
+  void prime(const BodyPart<Dim>& part, const GridTopology<Dim>& grid, NodeFields<Dim>& fields,
+             bool with_force) const override
   {
     if (with_force)
-      pass<PassContent{.scatter = {.mass = true, .momentum = true, .force = true}}>(part, grid, 0,
-                                                                                    nullptr);
+      pass<PassContent{.scatter = {.mass = true, .momentum = true, .force = true}}>(
+          part, grid, fields, 0, nullptr);
     else
-      pass<PassContent{.scatter = {.mass = true, .momentum = true}}>(part, grid, 0, nullptr);
+      pass<PassContent{.scatter = {.mass = true, .momentum = true}}>(part, grid, fields, 0,
+                                                                     nullptr);
   }
 
-  void musl_velocity(const BodyPart<Dim>& part, NodeGrid<Dim>& grid) const override
+  void load_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid, NodeFields<Dim>& fields,
+                  const typename Transfer<Dim>::BlockForce& force) const override
   {
-    pass<PassContent{.velocity = true, .scatter = {.remap = true}}>(part, grid, 0, nullptr);
+    const GridFrame<Dim> frame(grid);
+    for (LocalIndex b = part.first; b < part.end; ++b) {
+      Lanes x[Dim], f[Dim];
+      for (Lanes& component : f) component = 0.0;
+      force(b, f);
+      load_all(part.body.particles.motion().block(b), Columns::position, x);
+      scatter_force(Stencil<Dim, Shape>(x, frame, shape_), grid, f, fields.load_force.data());
+    }
   }
 
-  MoveOutcome<Dim> musl_stress(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
+  void musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                     NodeFields<Dim>& fields) const override
+  {
+    pass<PassContent{.velocity = true, .scatter = {.remap = true}}>(part, grid, fields, 0, nullptr);
+  }
+
+  MoveOutcome<Dim> musl_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                               NodeFields<Dim>& fields, double dt,
                                const MoveBounds<Dim>& bounds) const override
   {
     return pass<PassContent{.gradient = true,
                             .move = true,
                             .scatter = {.mass = true, .momentum = true, .force = true}}>(
-        part, grid, dt, &bounds);
+        part, grid, fields, dt, &bounds);
   }
 
-  void usf_stress(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt) const override
+  void usf_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid, NodeFields<Dim>& fields,
+                  double dt) const override
   {
-    pass<PassContent{.gradient = true, .scatter = {.force = true}}>(part, grid, dt, nullptr);
+    pass<PassContent{.gradient = true, .scatter = {.force = true}}>(part, grid, fields, dt,
+                                                                    nullptr);
   }
 
-  MoveOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
+  MoveOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                NodeFields<Dim>& fields, double dt,
                                 const MoveBounds<Dim>& bounds) const override
   {
     return pass<PassContent{
-        .velocity = true, .move = true, .scatter = {.mass = true, .momentum = true}}>(part, grid,
-                                                                                      dt, &bounds);
+        .velocity = true, .move = true, .scatter = {.mass = true, .momentum = true}}>(
+        part, grid, fields, dt, &bounds);
   }
 
-  MoveOutcome<Dim> usl(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
+  MoveOutcome<Dim> usl(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                       NodeFields<Dim>& fields, double dt,
                        const MoveBounds<Dim>& bounds) const override
   {
     return pass<PassContent{.gradient = true,
                             .velocity = true,
                             .move = true,
                             .scatter = {.mass = true, .momentum = true, .force = true}}>(
-        part, grid, dt, &bounds);
+        part, grid, fields, dt, &bounds);
   }
 
  private:
@@ -126,19 +147,21 @@ class KernelTransfer final : public Transfer<Dim> {
   /// Of the chunk from `first` on, as far as there are blocks before `end`.
   [[gnu::always_inline]] void gather_gradients(ParticleStore& particles, LocalIndex first,
                                                LocalIndex end, const GridFrame<Dim>& frame,
-                                               const NodeGrid<Dim>& grid, double* gradient) const
+                                               const GridTopology<Dim>& grid,
+                                               const NodeFields<Dim>& fields,
+                                               double* gradient) const
   {
     for (LocalIndex b = first; b < std::min(first + chunk, end); ++b) {
       Lanes x[Dim];
       load_all(particles.motion().block(b), Columns::position, x);
-      gather_gradient(Stencil<Dim, Shape>(x, frame, shape_), grid, gradient);
+      gather_gradient(Stencil<Dim, Shape>(x, frame, shape_), grid, fields, gradient);
       gradient += Dim * Dim * lane_count;
     }
   }
 
   template <PassContent Content>
-  MoveOutcome<Dim> pass(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
-                        const MoveBounds<Dim>* bounds) const
+  MoveOutcome<Dim> pass(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                        NodeFields<Dim>& fields, double dt, const MoveBounds<Dim>* bounds) const
   {
     constexpr int stress_width = symmetric_components<Dim> * lane_count;
     alignas(lane_alignment) double gradient[chunk * Dim * Dim * lane_count];
@@ -147,10 +170,10 @@ class KernelTransfer final : public Transfer<Dim> {
     const GridFrame<Dim> frame(grid), force_frame = frame.with_negative_gradients();
     MoveOutcome<Dim> outcome;
     Lanes largest_speed = 0.0;
-    Scatter<Dim, Shape, Content.scatter> scatter(grid);
+    Scatter<Dim, Shape, Content.scatter> scatter(grid, fields);
     ParticleStore& particles = part.body.particles;
     if constexpr (Content.gradient)
-      gather_gradients(particles, part.first, part.end, frame, grid, gradient);
+      gather_gradients(particles, part.first, part.end, frame, grid, fields, gradient);
     for (LocalIndex first = part.first; first < part.end; first += chunk) {
       const int blocks = std::min(chunk, int(part.end - first));
       double* state = particles.state().block(first);
@@ -158,13 +181,14 @@ class KernelTransfer final : public Transfer<Dim> {
       if constexpr (Content.gradient) {
         part.body.law->update(state, blocks, gradient, dt, force_stress);
         // The law's arithmetic is one long chain; what the next blocks gather fills its gaps.
-        gather_gradients(particles, first + chunk, part.end, frame, grid, gradient);
+        gather_gradients(particles, first + chunk, part.end, frame, grid, fields, gradient);
       } else if constexpr (Content.scatter.force) {
         part.body.law->force_stress(state, blocks, force_stress);
       }
       for (int k = 0; k < blocks; ++k)
-        move_and_scatter<Content>(particles, first + k, frame, force_frame, grid, dt, bounds,
-                                  force_stress + k * stress_width, scatter, largest_speed, outcome);
+        move_and_scatter<Content>(particles, first + k, frame, force_frame, grid, fields, dt,
+                                  bounds, force_stress + k * stress_width, scatter, largest_speed,
+                                  outcome);
     }
     outcome.largest_speed = stdx::hmax(largest_speed);
     return outcome;
@@ -173,10 +197,10 @@ class KernelTransfer final : public Transfer<Dim> {
   template <PassContent Content>
   [[gnu::always_inline]] void move_and_scatter(
       ParticleStore& particles, LocalIndex block, const GridFrame<Dim>& frame,
-      const GridFrame<Dim>& force_frame, NodeGrid<Dim>& grid, double dt,
-      const MoveBounds<Dim>* bounds, const double* force_stress,
-      Scatter<Dim, Shape, Content.scatter>& scatter, Lanes& largest_speed,
-      MoveOutcome<Dim>& outcome) const
+      const GridFrame<Dim>& force_frame, const GridTopology<Dim>& grid,
+      const NodeFields<Dim>& fields, double dt, const MoveBounds<Dim>* bounds,
+      const double* force_stress, Scatter<Dim, Shape, Content.scatter>& scatter,
+      Lanes& largest_speed, MoveOutcome<Dim>& outcome) const
   {
     constexpr bool needs_affine =
         Scheme::affine && (Content.scatter.momentum || Content.scatter.remap);
@@ -197,7 +221,7 @@ class KernelTransfer final : public Transfer<Dim> {
           stencil.affine_weights(affine_weight);
       }
       Lanes gathered[2 * Dim];
-      gather_velocity<Scheme::affine>(stencil, grid, affine_weight, gathered, affine);
+      gather_velocity<Scheme::affine>(stencil, grid, fields, affine_weight, gathered, affine);
       if constexpr (Scheme::increments) load_all(motion, Columns::velocity, v);
       for (int d = 0; d < Dim; ++d) {
         u[d] = gathered[d];
@@ -242,6 +266,26 @@ class KernelTransfer final : public Transfer<Dim> {
       for (Lanes& a : affine) a *= mass;
     }
     scatter.template add<needs_affine>(stencil, mass, momentum, force_stress, affine);
+  }
+
+  /// Adds w f to the nodes, one after the other: loads are few.
+  static void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& grid,
+                            const Lanes (&force)[Dim], double* nodes)
+  {
+    constexpr int n = Shape::support, layers = Dim == 3 ? n : 1;
+    for (int lane = 0; lane < lane_count; ++lane)
+      for (int c = 0; c < layers; ++c)
+        for (int b = 0; b < n; ++b)
+          for (int a = 0; a < n; ++a) {
+            std::size_t node =
+                std::size_t(stencil.base[lane]) + a + b * std::size_t(grid.stride(1));
+            double w = stencil.weight[0][a][lane] * stencil.weight[1][b][lane];
+            if constexpr (Dim == 3) {
+              node += c * std::size_t(grid.stride(2));
+              w *= stencil.weight[2][c][lane];
+            }
+            for (int d = 0; d < Dim; ++d) nodes[node * Dim + d] += w * force[d][lane];
+          }
   }
 
   /// Notes the first lost particle and puts all lost ones where memory is valid; the run ends

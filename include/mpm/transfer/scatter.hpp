@@ -1,6 +1,7 @@
 #pragma once
 /// From one block of particles to the grid.
 
+#include <mpm/grid/node_fields.hpp>
 #include <mpm/materials/law.hpp>
 #include <mpm/transfer/stencil.hpp>
 
@@ -21,14 +22,15 @@ class Scatter {
   static constexpr int n = Shape::support;
   static constexpr int rows = Dim == 3 ? n * n : n;
   static constexpr int width =
-      Content.remap ? NodeGrid<Dim>::remap_width : NodeGrid<Dim>::record_width;
+      Content.remap ? NodeFields<Dim>::remap_width : NodeFields<Dim>::record_width;
   using R = Record<width>;
   using MassRow = Record<4>;
 
  public:
-  explicit Scatter(NodeGrid<Dim>& grid)
+  Scatter(const GridTopology<Dim>& grid, NodeFields<Dim>& fields)
       : grid_(grid),
-        target_(Content.remap ? grid.remapped_momentum.data() : grid.momentum_force.data())
+        mass_of_nodes_(fields.mass.data()),
+        target_(Content.remap ? fields.remapped_momentum.data() : fields.momentum_force.data())
   {
     clear();
   }
@@ -108,7 +110,7 @@ class Scatter {
           if constexpr (InRegisters)
             mass_[row] += mass_row * w_row;
           else
-            add_to(grid_.mass.data() + node, mass_row * w_row);
+            add_to(mass_of_nodes_ + node, mass_row * w_row);
         }
         R at_row = plain;  // without the force: times w along x
         if constexpr (Affine) {
@@ -180,11 +182,12 @@ class Scatter {
     for (int row = 0; row < rows; ++row) {
       const std::size_t node = first_of_row(base_, row);
       for (int a = 0; a < n; ++a) add_to(target_ + (node + a) * width, sum_[row * n + a]);
-      if constexpr (Content.mass) add_to(grid_.mass.data() + node, mass_[row]);
+      if constexpr (Content.mass) add_to(mass_of_nodes_ + node, mass_[row]);
     }
   }
 
-  NodeGrid<Dim>& grid_;
+  const GridTopology<Dim>& grid_;
+  double* mass_of_nodes_;
   double* target_;
   LocalIndex base_ = -1;
   R sum_[rows * n];

@@ -2,7 +2,8 @@
 /// Weights of one block of particles on the nodes around them: a tensor product of one-dimensional
 /// shape functions.
 
-#include <mpm/grid/node_grid.hpp>
+#include <mpm/core/lanes.hpp>
+#include <mpm/grid/grid_topology.hpp>
 
 #include <algorithm>
 
@@ -23,7 +24,7 @@ struct GridFrame {
     return frame;
   }
 
-  explicit GridFrame(const NodeGrid<Dim>& grid)
+  explicit GridFrame(const GridTopology<Dim>& grid)
   {
     for (int d = 0; d < Dim; ++d) {
       origin[d] = grid.geometry().origin[d];

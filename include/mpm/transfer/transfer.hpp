@@ -1,9 +1,10 @@
 #pragma once
 /// The passes over the particles of which the update orders are made.
 
-#include <mpm/grid/node_grid.hpp>
+#include <mpm/grid/node_fields.hpp>
 #include <mpm/materials/law.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -55,26 +56,37 @@ class Transfer {
   /// Nodes per axis of a stencil, and how far its first node may lie below the particle's cell.
   virtual int support() const = 0;
   /// First node of each particle's stencil, local numbering (for sorting).
-  virtual void first_nodes(const ParticleStore& particles, const NodeGrid<Dim>& grid,
+  virtual void first_nodes(const ParticleStore& particles, const GridTopology<Dim>& grid,
                            std::vector<LocalIndex>& nodes) const = 0;
 
   /// P2G of mass, momentum and, where `with_force`, internal force. No state changes.
-  virtual void prime(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, bool with_force) const = 0;
+  virtual void prime(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                     NodeFields<Dim>& fields, bool with_force) const = 0;
+
+  /// P2G of forces from outside (N), block by block, to the fields' load force.
+  using BlockForce = std::function<void(LocalIndex block, Lanes (&force)[Dim])>;
+  virtual void load_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                          NodeFields<Dim>& fields, const BlockForce& force) const = 0;
 
   // MUSL, two passes.
   /// G2P of the velocity at the old place, and its momentum back to the same nodes.
-  virtual void musl_velocity(const BodyPart<Dim>& part, NodeGrid<Dim>& grid) const = 0;
+  virtual void musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                             NodeFields<Dim>& fields) const = 0;
   /// Velocity gradient at the old place, stress, move; P2G of mass, momentum, force at the new.
-  virtual MoveOutcome<Dim> musl_stress(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
+  virtual MoveOutcome<Dim> musl_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                       NodeFields<Dim>& fields, double dt,
                                        const MoveBounds<Dim>& bounds) const = 0;
   // USF, two passes.
   /// Velocity gradient, stress, P2G of the force.
-  virtual void usf_stress(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt) const = 0;
+  virtual void usf_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                          NodeFields<Dim>& fields, double dt) const = 0;
   /// G2P of the velocity, move; P2G of mass and momentum at the new place.
-  virtual MoveOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
+  virtual MoveOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                        NodeFields<Dim>& fields, double dt,
                                         const MoveBounds<Dim>& bounds) const = 0;
   // USL, one pass.
-  virtual MoveOutcome<Dim> usl(const BodyPart<Dim>& part, NodeGrid<Dim>& grid, double dt,
+  virtual MoveOutcome<Dim> usl(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                               NodeFields<Dim>& fields, double dt,
                                const MoveBounds<Dim>& bounds) const = 0;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A grid whose nodes all have mass and different velocities, and what a condition made of them.
 
-#include <mpm/grid/node_grid.hpp>
+#include "node_grid.hpp"
 
 namespace mpm {
 
@@ -14,14 +14,14 @@ struct MovingNodes {
 
   explicit MovingNodes(double mass_cut = 0) : grid(geometry(), box(8), box(6), mass_cut)
   {
-    for (LocalIndex node = 0; node < grid.size(); ++node) grid.touch(node);
+    for (LocalIndex node = 0; node < grid.topology.size(); ++node) grid.topology.touch(node);
     grid.end_activity(2);
-    for (LocalIndex node = 0; node < grid.size(); ++node) {
-      grid.mass[node] = 1 + node / 100.0;
+    for (LocalIndex node = 0; node < grid.topology.size(); ++node) {
+      grid.fields.mass[node] = 1 + node / 100.0;
       for (int d = 0; d < Dim; ++d) {
-        grid.updated_of(node)[d] = velocity(node, d);
-        grid.updated_of(node)[Dim + d] = increment(node, d);
-        grid.set_gradient_velocity(node, d, velocity(node, d));
+        grid.fields.updated_of(node)[d] = velocity(node, d);
+        grid.fields.updated_of(node)[Dim + d] = increment(node, d);
+        grid.fields.set_gradient_velocity(node, d, velocity(node, d));
       }
     }
   }
@@ -29,18 +29,19 @@ struct MovingNodes {
   static double velocity(LocalIndex node, int d) { return 0.1 * node + d; }
   static double increment(LocalIndex node, int d) { return 0.01 * node - d; }
 
-  double updated(LocalIndex node, int d) { return grid.updated_of(node)[d]; }
-  double gradient(LocalIndex node, int d) { return grid.gradient_velocity_of(node)[d]; }
+  double updated(LocalIndex node, int d) { return grid.fields.updated_of(node)[d]; }
+  double gradient(LocalIndex node, int d) { return grid.fields.gradient_velocity_of(node)[d]; }
 
   IndexVec<Dim> index(LocalIndex node) const
   {
     IndexVec<Dim> at;
-    for (int d = 0; d < Dim; ++d) at[d] = node / grid.stride(d) % grid.local().count()[d];
+    for (int d = 0; d < Dim; ++d)
+      at[d] = node / grid.topology.stride(d) % grid.topology.local().count()[d];
     return at;
   }
   double coordinate(LocalIndex node, int axis) const
   {
-    return grid.geometry().node_position(axis, index(node)[axis]);
+    return grid.topology.geometry().node_position(axis, index(node)[axis]);
   }
 
  private:

@@ -21,13 +21,14 @@ template <class FreeVelocity>
 Reaction<2> sum_over_owned_nodes(const MovingNodes<2>& nodes, FreeVelocity free_velocity)
 {
   Reaction<2> sum;
-  for (LocalIndex node = 0; node < nodes.grid.size(); ++node) {
+  for (LocalIndex node = 0; node < nodes.grid.topology.size(); ++node) {
     const int column = nodes.index(node)[0];
     if (column < 4 || column > 5) continue;
     for (int d = 0; d < 2; ++d) {
       const double before = d == 0 ? motion.velocity(time) : 0;
       const double after = d == 0 ? motion.velocity(time + dt) : 0;
-      const double impulse = nodes.grid.mass[node] * (after - free_velocity(node, d, before));
+      const double impulse =
+          nodes.grid.fields.mass[node] * (after - free_velocity(node, d, before));
       sum.impulse[d] += impulse;
       sum.work += impulse * 0.5 * (before + after);
     }
@@ -46,7 +47,7 @@ TEST(Reaction, OfIncrementsLeavesOutTheProjectionOntoTheWall)
 {
   MovingNodes<2> nodes;
   RigidWall<2> piston(placement, motion, WallGrip::stick, ReactionBook::increments);
-  piston.constrain_updated(nodes.grid, time, dt);
+  piston.constrain_updated(nodes.grid.topology, nodes.grid.fields, time, dt);
   expect_equal(piston.take_reaction(),
                sum_over_owned_nodes(nodes, [](LocalIndex node, int d, double before) {
                  return before + MovingNodes<2>::increment(node, d);
@@ -57,7 +58,7 @@ TEST(Reaction, OfVelocitiesIsTheWholeChangeOfMomentum)
 {
   MovingNodes<2> nodes;
   RigidWall<2> piston(placement, motion, WallGrip::stick, ReactionBook::velocities);
-  piston.constrain_updated(nodes.grid, time, dt);
+  piston.constrain_updated(nodes.grid.topology, nodes.grid.fields, time, dt);
   expect_equal(piston.take_reaction(),
                sum_over_owned_nodes(nodes, [](LocalIndex node, int d, double) {
                  return MovingNodes<2>::velocity(node, d);
@@ -71,12 +72,12 @@ TEST(Reaction, OfOneNodeByHand)
   for (const auto& [book, impulse] :
        {std::pair{ReactionBook::increments, -1.0}, std::pair{ReactionBook::velocities, -7.0}}) {
     MovingNodes<2> nodes(1.9);
-    std::ranges::fill(nodes.grid.mass, 0.0);
-    const LocalIndex node = nodes.grid.index_of({5, 3});
-    nodes.grid.mass[node] = 2;
-    nodes.grid.updated_of(node)[0] = nodes.grid.updated_of(node)[2] = 0.5;
+    std::ranges::fill(nodes.grid.fields.mass, 0.0);
+    const LocalIndex node = nodes.grid.topology.index_of({5, 3});
+    nodes.grid.fields.mass[node] = 2;
+    nodes.grid.fields.updated_of(node)[0] = nodes.grid.fields.updated_of(node)[2] = 0.5;
     RigidWall<2> piston({0, true, 2.0}, {-3, 0}, WallGrip::slip, book);
-    piston.constrain_updated(nodes.grid, 0, 1e-3);
+    piston.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 1e-3);
     const Reaction<2> reaction = piston.take_reaction();
     EXPECT_DOUBLE_EQ(reaction.impulse[0], impulse);
     EXPECT_EQ(reaction.impulse[1], 0);
@@ -91,16 +92,16 @@ TEST(Reaction, OfTwoRanksThatShareNodesCountsEachNodeOnce)
   const IndexBox<2> whole{{0, 0}, {8, 5}};
   const auto reaction_of = [&](const IndexBox<2>& local, const IndexBox<2>& owned) {
     NodeGrid<2> grid(geometry, local, owned, 0);
-    for (LocalIndex node = 0; node < grid.size(); ++node) grid.touch(node);
+    for (LocalIndex node = 0; node < grid.topology.size(); ++node) grid.topology.touch(node);
     grid.end_activity(2);
     for (int i = local.lower[0]; i < local.upper[0]; ++i)
       for (int j = local.lower[1]; j < local.upper[1]; ++j) {
-        const LocalIndex node = grid.index_of({i, j});
-        grid.mass[node] = 1 + i;
-        grid.updated_of(node)[1] = -1.0 - j;
+        const LocalIndex node = grid.topology.index_of({i, j});
+        grid.fields.mass[node] = 1 + i;
+        grid.fields.updated_of(node)[1] = -1.0 - j;
       }
     RigidWall<2> floor({1, false, 2.0}, {}, WallGrip::slip, ReactionBook::velocities);
-    floor.constrain_updated(grid, 0, 1);
+    floor.constrain_updated(grid.topology, grid.fields, 0, 1);
     return floor.take_reaction().impulse[1];
   };
   const double alone = reaction_of(whole, whole);
@@ -118,13 +119,13 @@ TEST(Reaction, AddsUpUntilItIsTakenAndStartsAgainFromZero)
 {
   MovingNodes<2> nodes;
   RigidWall<2> wall({1, false, 0.5}, {}, WallGrip::stick, ReactionBook::velocities);
-  wall.constrain_updated(nodes.grid, 0, 1);
+  wall.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 1);
   const Reaction<2> once = wall.take_reaction();
   ASSERT_LT(once.impulse[0], 0);
   EXPECT_EQ(wall.take_reaction().impulse[0], 0);
   for (int k = 0; k < 2; ++k) {
     MovingNodes<2> again;
-    wall.constrain_updated(again.grid, 0, 1);
+    wall.constrain_updated(again.grid.topology, again.grid.fields, 0, 1);
   }
   EXPECT_NEAR(wall.take_reaction().impulse[0], 2 * once.impulse[0], rounding);
 }
@@ -133,7 +134,7 @@ TEST(Reaction, OfAWallAtRestDoesNoWork)
 {
   MovingNodes<2> nodes;
   RigidWall<2> wall({0, false, 1.0}, {}, WallGrip::stick, ReactionBook::increments);
-  wall.constrain_updated(nodes.grid, 0, 1);
+  wall.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 1);
   const Reaction<2> reaction = wall.take_reaction();
   EXPECT_NE(reaction.impulse[0], 0);
   EXPECT_EQ(reaction.work, 0);

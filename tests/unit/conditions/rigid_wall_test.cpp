@@ -12,11 +12,11 @@ void expect_wall(MovingNodes<Dim>& nodes, const typename RigidWall<Dim>::Placeme
                  double face, double wall_velocity, WallGrip grip)
 {
   int behind_count = 0;
-  for (LocalIndex node = 0; node < nodes.grid.size(); ++node) {
+  for (LocalIndex node = 0; node < nodes.grid.topology.size(); ++node) {
     const double x = nodes.coordinate(node, placement.axis);
     // Behind the face or at most half a cell in front of it, with some room for rounding.
-    const double in_front =
-        (placement.upper ? face - x : x - face) / nodes.grid.geometry().spacing[placement.axis];
+    const double in_front = (placement.upper ? face - x : x - face) /
+                            nodes.grid.topology.geometry().spacing[placement.axis];
     const bool behind = in_front <= 0.5 + 1e-10;
     behind_count += behind;
     for (int d = 0; d < Dim; ++d) {
@@ -28,7 +28,7 @@ void expect_wall(MovingNodes<Dim>& nodes, const typename RigidWall<Dim>::Placeme
     }
   }
   EXPECT_GT(behind_count, 0);
-  EXPECT_LT(behind_count, nodes.grid.size());
+  EXPECT_LT(behind_count, nodes.grid.topology.size());
 }
 
 class WallEverywhere : public testing::TestWithParam<std::tuple<bool, WallGrip>> {};
@@ -39,11 +39,11 @@ void try_all_axes(bool upper, WallGrip grip)
   for (int axis = 0; axis < Dim; ++axis)
     for (const double cells : {3.0, 3.3, 3.7}) {
       MovingNodes<Dim> nodes;
-      const double face = cells * nodes.grid.geometry().spacing[axis];
+      const double face = cells * nodes.grid.topology.geometry().spacing[axis];
       const typename RigidWall<Dim>::Placement placement{axis, upper, face};
       RigidWall<Dim> wall(placement, {}, grip, ReactionBook::increments);
-      wall.constrain_updated(nodes.grid, 0, 1);
-      wall.constrain_gradient(nodes.grid, 0, 1);
+      wall.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 1);
+      wall.constrain_gradient(nodes.grid.topology, nodes.grid.fields, 0, 1);
       expect_wall(nodes, placement, face, 0, grip);
     }
 }
@@ -66,8 +66,8 @@ TEST(RigidWall, MidwayBetweenTwoNodesHoldsTheOneInFrontWhateverTheRounding)
       MovingNodes<2> nodes;
       const RigidWall<2>::Placement placement{1, upper, 1.125 + hair};  // between 4 and 5 along y
       RigidWall<2> wall(placement, {}, WallGrip::slip, ReactionBook::increments);
-      wall.constrain_updated(nodes.grid, 0, 1);
-      wall.constrain_gradient(nodes.grid, 0, 1);
+      wall.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 1);
+      wall.constrain_gradient(nodes.grid.topology, nodes.grid.fields, 0, 1);
       expect_wall(nodes, placement, 1.125, 0, WallGrip::slip);
     }
 }
@@ -80,8 +80,8 @@ TEST(RigidWall, AMovingOneHoldsTheNodesOfItsPlaceAtTheEndOfTheStep)
   const WallMotion motion{-2, 0};
   MovingNodes<2> nodes;
   RigidWall<2> wall(placement, motion, WallGrip::stick, ReactionBook::velocities);
-  wall.constrain_updated(nodes.grid, 0.2, 0.1);
-  wall.constrain_gradient(nodes.grid, 0.2, 0.1);
+  wall.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0.2, 0.1);
+  wall.constrain_gradient(nodes.grid.topology, nodes.grid.fields, 0.2, 0.1);
   expect_wall(nodes, placement, 3.2, -2, WallGrip::stick);
   EXPECT_NEAR(wall.position(0.3), 3.2, 1e-15);
 }
@@ -91,20 +91,20 @@ TEST(RigidWall, GivesNodesInItsRampTheVelocityAtTheEndOfTheStepAndTheChangeAsInc
   const WallMotion motion{-2, 1.0};  // V(0.5) = -1, V(0.75) = -2 (3 * 0.5625 - 2 * 0.421875)
   MovingNodes<2> nodes;
   RigidWall<2> wall({0, true, 3.5}, motion, WallGrip::stick, ReactionBook::increments);
-  wall.constrain_updated(nodes.grid, 0.5, 0.25);
-  const LocalIndex node = nodes.grid.index_of({7, 3});
+  wall.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0.5, 0.25);
+  const LocalIndex node = nodes.grid.topology.index_of({7, 3});
   EXPECT_DOUBLE_EQ(nodes.updated(node, 0), -1.6875);
-  EXPECT_DOUBLE_EQ(nodes.grid.updated_of(node)[2], -0.6875);
+  EXPECT_DOUBLE_EQ(nodes.grid.fields.updated_of(node)[2], -0.6875);
   EXPECT_EQ(nodes.updated(node, 1), 0);
-  EXPECT_EQ(nodes.grid.updated_of(node)[3], 0);
+  EXPECT_EQ(nodes.grid.fields.updated_of(node)[3], 0);
 }
 
 TEST(RigidWall, LeavesNodesWithoutMassAlone)
 {
   MovingNodes<2> nodes(1.5);  // nodes up to number 50 weigh less
   RigidWall<2> wall({1, true, 0.0}, {}, WallGrip::stick, ReactionBook::increments);
-  wall.constrain_updated(nodes.grid, 0, 1);
-  for (LocalIndex node = 0; node < nodes.grid.size(); ++node)
+  wall.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 1);
+  for (LocalIndex node = 0; node < nodes.grid.topology.size(); ++node)
     EXPECT_EQ(nodes.updated(node, 0), node <= 50 ? nodes.velocity(node, 0) : 0.0);
 }
 

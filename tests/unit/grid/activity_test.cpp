@@ -1,8 +1,8 @@
-#include <mpm/grid/node_grid.hpp>
 
 #include <algorithm>
 #include <set>
 
+#include "node_grid.hpp"
 #include <gmock/gmock.h>
 
 namespace mpm {
@@ -29,8 +29,8 @@ template <int Dim>
 std::set<LocalIndex> nodes_of_runs(const NodeGrid<Dim>& grid)
 {
   std::set<LocalIndex> nodes;
-  for (const NodeRun<Dim>& run : grid.runs()) {
-    EXPECT_EQ(grid.index_of(run.start), run.first);
+  for (const NodeRun<Dim>& run : grid.topology.runs()) {
+    EXPECT_EQ(grid.topology.index_of(run.start), run.first);
     for (LocalIndex k = 0; k < run.length; ++k)
       EXPECT_TRUE(nodes.insert(run.first + k).second) << "in two runs";
   }
@@ -41,10 +41,11 @@ template <int Dim>
 std::set<LocalIndex> nodes_of_box(const NodeGrid<Dim>& grid, const IndexBox<Dim>& box)
 {
   std::set<LocalIndex> nodes;
-  for (LocalIndex node = 0; node < grid.size(); ++node) {
+  for (LocalIndex node = 0; node < grid.topology.size(); ++node) {
     IndexVec<Dim> at;
     for (int d = 0; d < Dim; ++d)
-      at[d] = grid.local().lower[d] + node / grid.stride(d) % grid.local().count()[d];
+      at[d] = grid.topology.local().lower[d] +
+              node / grid.topology.stride(d) % grid.topology.local().count()[d];
     if (box.contains(at)) nodes.insert(node);
   }
   return nodes;
@@ -53,8 +54,8 @@ std::set<LocalIndex> nodes_of_box(const NodeGrid<Dim>& grid, const IndexBox<Dim>
 template <int Dim>
 void activate(NodeGrid<Dim>& grid, std::vector<IndexVec<Dim>> first_nodes, int support)
 {
-  grid.begin_activity();
-  for (const IndexVec<Dim>& node : first_nodes) grid.touch(grid.index_of(node));
+  grid.topology.begin_activity();
+  for (const IndexVec<Dim>& node : first_nodes) grid.topology.touch(grid.topology.index_of(node));
   grid.end_activity(support);
 }
 
@@ -63,7 +64,7 @@ TEST(Activity, CoversAStencilAndOneNodeAroundIt)
   NodeGrid<2> grid = plane_grid();
   activate<2>(grid, {{15, 25}}, 3);
   EXPECT_EQ(nodes_of_runs(grid), nodes_of_box<2>(grid, {{14, 24}, {19, 29}}));
-  EXPECT_EQ(grid.active_nodes(), 25);
+  EXPECT_EQ(grid.topology.active_nodes(), 25);
 }
 
 TEST(Activity, CoversAStencilAndOneNodeAroundItInSpace)
@@ -92,7 +93,7 @@ TEST(Activity, OfOverlappingStencilsCountsEachNodeOnce)
 TEST(Activity, KeepsSharedNodesAndTheirNeighboursWhereverParticlesAre)
 {
   NodeGrid<2> grid = plane_grid();
-  grid.keep_active({grid.index_of({12, 22})});
+  grid.topology.keep_active({grid.topology.index_of({12, 22})});
   activate<2>(grid, {{25, 30}}, 2);
   std::set<LocalIndex> expected = nodes_of_box<2>(grid, {{11, 21}, {14, 24}});
   expected.merge(nodes_of_box<2>(grid, {{24, 29}, {28, 33}}));
@@ -102,8 +103,9 @@ TEST(Activity, KeepsSharedNodesAndTheirNeighboursWhereverParticlesAre)
 template <int Dim>
 void fill_all(NodeGrid<Dim>& grid)
 {
-  for (LaneVector<double>* values : {&grid.mass, &grid.momentum_force, &grid.updated,
-                                     &grid.remapped_momentum, &grid.gradient_velocity})
+  for (LaneVector<double>* values :
+       {&grid.fields.mass, &grid.fields.momentum_force, &grid.fields.updated,
+        &grid.fields.remapped_momentum, &grid.fields.gradient_velocity})
     std::ranges::fill(*values, mark);
 }
 
@@ -111,14 +113,14 @@ void fill_all(NodeGrid<Dim>& grid)
 template <int Dim>
 std::vector<double> values_at(const NodeGrid<Dim>& grid, LocalIndex node)
 {
-  std::vector<double> values{grid.mass[node]};
+  std::vector<double> values{grid.fields.mass[node]};
   const auto append = [&](const LaneVector<double>& all, int width) {
     values.insert(values.end(), all.begin() + node * width, all.begin() + (node + 1) * width);
   };
-  append(grid.momentum_force, grid.record_width);
-  append(grid.updated, grid.record_width);
-  append(grid.remapped_momentum, grid.remap_width);
-  append(grid.gradient_velocity, grid.velocity_width);
+  append(grid.fields.momentum_force, NodeFields<Dim>::record_width);
+  append(grid.fields.updated, NodeFields<Dim>::record_width);
+  append(grid.fields.remapped_momentum, NodeFields<Dim>::remap_width);
+  append(grid.fields.gradient_velocity, NodeFields<Dim>::velocity_width);
   return values;
 }
 
@@ -128,19 +130,19 @@ void expect_work_stays_inside_the_runs(NodeGrid<Dim> grid, const IndexVec<Dim>& 
   fill_all(grid);
   activate<Dim>(grid, {first_node}, 2);
   const std::set<LocalIndex> active = nodes_of_runs(grid);
-  ASSERT_LT(LocalIndex(active.size()), grid.size());
-  grid.reset();
-  grid.reset_remap();
-  grid.update_velocity(1);
-  grid.gradient_from_momentum();
-  grid.gradient_from_remap();
-  grid.gradient_from_updated();
-  for (LocalIndex node = 0; node < grid.size(); ++node)
+  ASSERT_LT(LocalIndex(active.size()), grid.topology.size());
+  grid.fields.reset(grid.topology.runs());
+  grid.fields.reset_remap(grid.topology.runs());
+  grid.fields.update_velocity(grid.topology.runs(), 1);
+  grid.fields.gradient_from_momentum(grid.topology.runs());
+  grid.fields.gradient_from_remap(grid.topology.runs());
+  grid.fields.gradient_from_updated(grid.topology.runs());
+  for (LocalIndex node = 0; node < grid.topology.size(); ++node)
     if (active.contains(node)) {
-      EXPECT_EQ(grid.mass[node], 0);
-      EXPECT_EQ(grid.momentum_force[node * grid.record_width], 0);
-      EXPECT_EQ(grid.updated[node * grid.record_width], 0);
-      EXPECT_EQ(grid.remapped_momentum[node * grid.remap_width], 0);
+      EXPECT_EQ(grid.fields.mass[node], 0);
+      EXPECT_EQ(grid.fields.momentum_force[node * NodeFields<Dim>::record_width], 0);
+      EXPECT_EQ(grid.fields.updated[node * NodeFields<Dim>::record_width], 0);
+      EXPECT_EQ(grid.fields.remapped_momentum[node * NodeFields<Dim>::remap_width], 0);
     } else {
       EXPECT_THAT(values_at(grid, node), Each(mark)) << "node " << node;
     }

@@ -1,4 +1,4 @@
-#include <mpm/grid/node_grid.hpp>
+#include <mpm/grid/grid_topology.hpp>
 
 #include <gmock/gmock.h>
 
@@ -39,11 +39,11 @@ TEST(GridGeometry, FindsTheCellOfAPositionInSpace)
   EXPECT_EQ(grid.cell_of({3.5, 3.5, 3.5}), IndexVec<3>(3, 1, 1));
 }
 
-TEST(NodeGrid, NumbersItsNodesFromTheLowerCornerOfTheLocalBoxWithXFastest)
+TEST(GridTopology, NumbersItsNodesFromTheLowerCornerOfTheLocalBoxWithXFastest)
 {
   const GridGeometry<3> geometry{{0, 0, 0}, {1, 1, 1}, {20, 20, 20}};
   const IndexBox<3> local{{3, 4, 5}, {6, 8, 10}};
-  const NodeGrid<3> grid(geometry, local, local, 0);
+  const GridTopology<3> grid(geometry, local, local);
   EXPECT_EQ(grid.size(), 3 * 4 * 5);
   EXPECT_EQ(grid.index_of({3, 4, 5}), 0);
   EXPECT_EQ(grid.index_of({4, 4, 5}), 1);

@@ -32,9 +32,9 @@ double change_of_velocity(TransferCase c)
 {
   Cloud<Dim> cloud = spinning_cloud<Dim>(c, true);
   const Eigen::MatrixXd before = motion_of(cloud, Dim, Dim);
-  cloud.transfer->prime(cloud.body, cloud.grid, true);
-  cloud.grid.update_velocity(0);
-  cloud.transfer->musl_velocity(cloud.body, cloud.grid);
+  cloud.transfer->prime(cloud.body, cloud.grid.topology, cloud.grid.fields, true);
+  cloud.grid.fields.update_velocity(cloud.grid.topology.runs(), 0);
+  cloud.transfer->musl_velocity(cloud.body, cloud.grid.topology, cloud.grid.fields);
   return (motion_of(cloud, Dim, Dim) - before).cwiseAbs().maxCoeff();
 }
 
@@ -60,11 +60,12 @@ TEST(RigidRotation, IsSeenAsASpinWithoutStrainByTheMuslRemap)
   for (const ShapeKind shape : all_shapes)
     for (const SchemeKind scheme : {SchemeKind::apic, SchemeKind::tpic}) {
       Cloud<2> cloud = spinning_cloud<2>({shape, scheme}, true);
-      cloud.transfer->prime(cloud.body, cloud.grid, true);
-      cloud.grid.update_velocity(0);
-      cloud.transfer->musl_velocity(cloud.body, cloud.grid);
-      cloud.grid.gradient_from_remap();
-      cloud.transfer->musl_stress(cloud.body, cloud.grid, 0, cloud.wide_bounds());
+      cloud.transfer->prime(cloud.body, cloud.grid.topology, cloud.grid.fields, true);
+      cloud.grid.fields.update_velocity(cloud.grid.topology.runs(), 0);
+      cloud.transfer->musl_velocity(cloud.body, cloud.grid.topology, cloud.grid.fields);
+      cloud.grid.fields.gradient_from_remap(cloud.grid.topology.runs());
+      cloud.transfer->musl_stress(cloud.body, cloud.grid.topology, cloud.grid.fields, 0,
+                                  cloud.wide_bounds());
       const ColumnGroup& state = cloud.body.particles.state();
       for (int p = 0; p < cloud.count; ++p)
         for (int k = 0; k < 4; ++k)
@@ -78,10 +79,10 @@ TEST(AngularMomentum, OfTheParticlesWithTheirAffineFieldsIsThatOfTheNodes)
   // sum x_i x w m (v + C (x_i - x_p)) = x_p x m v + m (C_yx D_xx - C_xy D_yy), D = sum w off^2.
   for (const SchemeKind scheme : all_schemes) {
     Cloud<2> cloud({ShapeKind::quadratic, scheme});
-    cloud.transfer->prime(cloud.body, cloud.grid, false);
+    cloud.transfer->prime(cloud.body, cloud.grid.topology, cloud.grid.fields, false);
     const auto cross = [](const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; };
     double on_nodes = 0, on_particles = 0;
-    for (LocalIndex i = 0; i < cloud.grid.size(); ++i)
+    for (LocalIndex i = 0; i < cloud.grid.topology.size(); ++i)
       on_nodes += cross(cloud.nodes[i].x, momentum_of(cloud.grid, i));
     const Vec<2> moment = cloud.naive.h.cwiseAbs2() / 4;  // of quadratic splines, everywhere
     for (const NaiveParticle<2>& p : cloud.particles)

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "naive_transfer.hpp"
+#include "node_grid.hpp"
 #include <gmock/gmock.h>
 
 namespace mpm {
@@ -57,12 +58,12 @@ struct Cloud {
         body{"cloud", 0, 1.0, std::make_unique<RecordingLaw<Dim>>(), store(musl)},
         naive{{c.shape, 0.5 / particles_per_cell}, c.scheme, geometry().spacing}
   {
-    for (LocalIndex node = 0; node < grid.size(); ++node) {
-      grid.touch(node);
+    for (LocalIndex node = 0; node < grid.topology.size(); ++node) {
+      grid.topology.touch(node);
       NaiveNode<Dim> naive_node;
       for (int d = 0; d < Dim; ++d)
-        naive_node.x[d] = grid.geometry().node_position(
-            d, local().lower[d] + node / grid.stride(d) % local().count()[d]);
+        naive_node.x[d] = grid.topology.geometry().node_position(
+            d, local().lower[d] + node / grid.topology.stride(d) % local().count()[d]);
       nodes.push_back(naive_node);
     }
     grid.end_activity(transfer->support());
@@ -112,13 +113,13 @@ struct Cloud {
   template <class Field>
   void set_velocities(Field field)
   {
-    for (LocalIndex node = 0; node < grid.size(); ++node) {
+    for (LocalIndex node = 0; node < grid.topology.size(); ++node) {
       NaiveNode<Dim>& n = nodes[node];
       field(n);
       for (int d = 0; d < Dim; ++d) {
-        grid.updated_of(node)[d] = n.velocity[d];
-        grid.updated_of(node)[Dim + d] = n.increment[d];
-        grid.set_gradient_velocity(node, d, n.gradient_velocity[d]);
+        grid.fields.updated_of(node)[d] = n.velocity[d];
+        grid.fields.updated_of(node)[Dim + d] = n.increment[d];
+        grid.fields.set_gradient_velocity(node, d, n.gradient_velocity[d]);
       }
     }
   }

@@ -8,17 +8,20 @@ namespace mpm {
 template <int Dim>
 Vec<Dim> momentum_of(const NodeGrid<Dim>& grid, LocalIndex node)
 {
-  return Eigen::Map<const Vec<Dim>>(&grid.momentum_force[node * grid.record_width]);
+  return Eigen::Map<const Vec<Dim>>(
+      &grid.fields.momentum_force[node * NodeFields<Dim>::record_width]);
 }
 template <int Dim>
 Vec<Dim> force_of(const NodeGrid<Dim>& grid, LocalIndex node)
 {
-  return Eigen::Map<const Vec<Dim>>(&grid.momentum_force[node * grid.record_width + Dim]);
+  return Eigen::Map<const Vec<Dim>>(
+      &grid.fields.momentum_force[node * NodeFields<Dim>::record_width + Dim]);
 }
 template <int Dim>
 Vec<Dim> remap_of(const NodeGrid<Dim>& grid, LocalIndex node)
 {
-  return Eigen::Map<const Vec<Dim>>(&grid.remapped_momentum[node * grid.remap_width]);
+  return Eigen::Map<const Vec<Dim>>(
+      &grid.fields.remapped_momentum[node * NodeFields<Dim>::remap_width]);
 }
 
 template <int Dim>
@@ -33,11 +36,11 @@ Eigen::MatrixXd motion_of(const Cloud<Dim>& cloud, int column, int width)
 template <int Dim>
 void expect_nodes_equal(const Cloud<Dim>& cloud)
 {
-  for (LocalIndex i = 0; i < cloud.grid.size(); ++i) {
+  for (LocalIndex i = 0; i < cloud.grid.topology.size(); ++i) {
     const NaiveNode<Dim>& node = cloud.nodes[i];
     // Sums of up to 61 terms with weights up to 1: masses and velocities of size 1, stresses of
     // size 4 with gradients of size 3.
-    EXPECT_NEAR(cloud.grid.mass[i], node.mass, 20 * rounding) << "node " << i;
+    EXPECT_NEAR(cloud.grid.fields.mass[i], node.mass, 20 * rounding) << "node " << i;
     EXPECT_LT((momentum_of(cloud.grid, i) - node.momentum).norm(), 50 * rounding) << "node " << i;
     EXPECT_LT((force_of(cloud.grid, i) - node.force).norm(), 200 * rounding) << "node " << i;
   }

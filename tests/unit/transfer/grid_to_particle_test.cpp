@@ -29,7 +29,7 @@ void expect_linear_fields_exactly(TransferCase c)
     if (cloud.naive.affine()) p.affine = slope;
     p.x += dt * velocity;
   }
-  cloud.transfer->usl(cloud.body, cloud.grid, dt, cloud.wide_bounds());
+  cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, dt, cloud.wide_bounds());
   expect_particles_equal(cloud);
 }
 
@@ -44,7 +44,7 @@ void compare_with_the_double_loop(TransferCase c)
 {
   Cloud<Dim> cloud(c);
   cloud.set_random_velocities();
-  cloud.transfer->usl(cloud.body, cloud.grid, dt, cloud.wide_bounds());
+  cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, dt, cloud.wide_bounds());
   cloud.naive.stress_update(cloud.nodes, cloud.particles, dt);
   cloud.naive.velocity_to_particles(cloud.nodes, cloud.particles);
   cloud.naive.move(cloud.particles, dt);
@@ -64,7 +64,7 @@ TEST(FlipScheme, AddsTheIncrementAndForgetsTheGridVelocity)
     n.velocity = {100, 200};
     n.increment = {0.25, -0.5};
   });
-  cloud.transfer->usl(cloud.body, cloud.grid, 0, cloud.wide_bounds());
+  cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, 0, cloud.wide_bounds());
   for (int p = 0; p < cloud.count; ++p) {
     const Vec<2> v(cloud.body.particles.motion()(2, p), cloud.body.particles.motion()(3, p));
     EXPECT_LT((v - cloud.particles[p].v - Vec<2>(0.25, -0.5)).norm(), rounding);
@@ -78,7 +78,7 @@ TEST(PicScheme, TakesTheGridVelocityAndForgetsItsOwn)
     n.velocity = {3, 4};
     n.increment = {50, 60};
   });
-  cloud.transfer->usl(cloud.body, cloud.grid, 0, cloud.wide_bounds());
+  cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, 0, cloud.wide_bounds());
   for (int p = 0; p < cloud.count; ++p) {
     EXPECT_NEAR(cloud.body.particles.motion()(2, p), 3, 10 * rounding);
     EXPECT_NEAR(cloud.body.particles.motion()(3, p), 4, 10 * rounding);
@@ -92,8 +92,8 @@ void expect_apic_to_be_tpic()
   Cloud<Dim> tpic({ShapeKind::linear, SchemeKind::tpic});
   apic.set_random_velocities();
   tpic.set_random_velocities();  // the same ones
-  apic.transfer->usl(apic.body, apic.grid, dt, apic.wide_bounds());
-  tpic.transfer->usl(tpic.body, tpic.grid, dt, tpic.wide_bounds());
+  apic.transfer->usl(apic.body, apic.grid.topology, apic.grid.fields, dt, apic.wide_bounds());
+  tpic.transfer->usl(tpic.body, tpic.grid.topology, tpic.grid.fields, dt, tpic.wide_bounds());
   const int width = apic.body.particles.motion().width();
   EXPECT_LT((motion_of(apic, 0, width) - motion_of(tpic, 0, width)).norm(), 100 * rounding);
 }
@@ -110,8 +110,8 @@ TEST(ApicScheme, IsNotTpicForQuadraticFunctions)
   Cloud<2> tpic({ShapeKind::quadratic, SchemeKind::tpic});
   apic.set_random_velocities();
   tpic.set_random_velocities();
-  apic.transfer->usl(apic.body, apic.grid, dt, apic.wide_bounds());
-  tpic.transfer->usl(tpic.body, tpic.grid, dt, tpic.wide_bounds());
+  apic.transfer->usl(apic.body, apic.grid.topology, apic.grid.fields, dt, apic.wide_bounds());
+  tpic.transfer->usl(tpic.body, tpic.grid.topology, tpic.grid.fields, dt, tpic.wide_bounds());
   EXPECT_GT((motion_of(apic, 5, 4) - motion_of(tpic, 5, 4)).norm(), 0.1);
 }
 

@@ -19,7 +19,8 @@ Cloud<2> drifting_cloud(const Vec<2>& velocity)
 TEST(Move, ReportsTheLargestSpeedComponentOfTheGridVelocities)
 {
   Cloud<2> cloud = drifting_cloud({0.5, -0.75});
-  const auto outcome = cloud.transfer->usl(cloud.body, cloud.grid, dt, cloud.wide_bounds());
+  const auto outcome = cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, dt,
+                                           cloud.wide_bounds());
   EXPECT_NEAR(outcome.largest_speed, 0.75, rounding);
   EXPECT_FALSE(outcome.lost.has_value());
 }
@@ -33,7 +34,8 @@ TEST(Move, ReportsTheFirstParticleBeyondReachWithPlaceAndVelocity)
   cloud.fill_body();
   // It goes to 0.6 m, the others to 0.2 m.
   const MoveBounds<2> bounds{cloud.lower_corner(), cloud.lower_corner() + Vec<2>(0.5, 0.9)};
-  const auto outcome = cloud.transfer->usl(cloud.body, cloud.grid, dt, bounds);
+  const auto outcome =
+      cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, dt, bounds);
   ASSERT_TRUE(outcome.lost.has_value());
   EXPECT_EQ(outcome.lost->id, 1000 + lost);
   EXPECT_NEAR(outcome.lost->position[0], cloud.particles[lost].x[0] + 0.2, rounding);
@@ -46,7 +48,8 @@ TEST(Move, ReportsAParticleThatIsNoLongerANumber)
   cloud.set_velocities(
       [&](NaiveNode<2>& n) { n.velocity[1] = std::numeric_limits<double>::quiet_NaN(); });
   const MoveBounds<2> bounds{cloud.lower_corner(), cloud.lower_corner() + Vec<2>(1.5, 0.9)};
-  const auto outcome = cloud.transfer->usl(cloud.body, cloud.grid, dt, bounds);
+  const auto outcome =
+      cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, dt, bounds);
   ASSERT_TRUE(outcome.lost.has_value());
   EXPECT_EQ(outcome.lost->id, 1000);
 }

@@ -16,7 +16,7 @@ template <int Dim>
 void compare_with_the_double_loop(TransferCase c)
 {
   Cloud<Dim> cloud(c);
-  cloud.transfer->prime(cloud.body, cloud.grid, true);
+  cloud.transfer->prime(cloud.body, cloud.grid.topology, cloud.grid.fields, true);
   cloud.naive.to_grid(cloud.particles, cloud.nodes);
   expect_nodes_equal(cloud);
 }
@@ -31,11 +31,11 @@ template <int Dim>
 void expect_conservation(TransferCase c)
 {
   Cloud<Dim> cloud(c);
-  cloud.transfer->prime(cloud.body, cloud.grid, true);
+  cloud.transfer->prime(cloud.body, cloud.grid.topology, cloud.grid.fields, true);
   double mass = 0;
   Vec<Dim> momentum = Vec<Dim>::Zero(), force = Vec<Dim>::Zero();
-  for (LocalIndex i = 0; i < cloud.grid.size(); ++i) {
-    mass += cloud.grid.mass[i];
+  for (LocalIndex i = 0; i < cloud.grid.topology.size(); ++i) {
+    mass += cloud.grid.fields.mass[i];
     momentum += momentum_of(cloud.grid, i);
     force += force_of(cloud.grid, i);
   }
@@ -59,15 +59,15 @@ void expect_the_same_in_any_order(TransferCase c)
 {
   Cloud<Dim> cloud(c);
   std::vector<LocalIndex> first, order(cloud.count);
-  cloud.transfer->first_nodes(cloud.body.particles, cloud.grid, first);
+  cloud.transfer->first_nodes(cloud.body.particles, cloud.grid.topology, first);
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](LocalIndex p) { return first[p]; });
   ASSERT_FALSE(std::ranges::is_sorted(first));
   cloud.body.particles.permute(order);
   cloud.body.particles.seal();
-  cloud.transfer->first_nodes(cloud.body.particles, cloud.grid, first);
+  cloud.transfer->first_nodes(cloud.body.particles, cloud.grid.topology, first);
   ASSERT_TRUE(std::ranges::is_sorted(first));
-  cloud.transfer->prime(cloud.body, cloud.grid, true);
+  cloud.transfer->prime(cloud.body, cloud.grid.topology, cloud.grid.fields, true);
   cloud.naive.to_grid(cloud.particles, cloud.nodes);  // still in the old order
   expect_nodes_equal(cloud);
 }
@@ -83,16 +83,16 @@ void expect_stencils_to_cover_all_weights(TransferCase c)
 {
   Cloud<Dim> cloud(c);
   std::vector<LocalIndex> first;
-  cloud.transfer->first_nodes(cloud.body.particles, cloud.grid, first);
+  cloud.transfer->first_nodes(cloud.body.particles, cloud.grid.topology, first);
   ASSERT_EQ(int(first.size()), cloud.count);
   for (int p = 0; p < cloud.count; ++p) {
     double covered = 0;
-    for (LocalIndex node = 0; node < cloud.grid.size(); ++node) {
+    for (LocalIndex node = 0; node < cloud.grid.topology.size(); ++node) {
       bool inside = true;
       for (int d = 0; d < Dim; ++d) {
-        const LocalIndex count = cloud.grid.local().count()[d];
-        const LocalIndex k =
-            node / cloud.grid.stride(d) % count - first[p] / cloud.grid.stride(d) % count;
+        const LocalIndex count = cloud.grid.topology.local().count()[d];
+        const LocalIndex k = node / cloud.grid.topology.stride(d) % count -
+                             first[p] / cloud.grid.topology.stride(d) % count;
         inside = inside && k >= 0 && k < cloud.transfer->support();
       }
       if (inside) covered += cloud.naive.weight(cloud.particles[p].x, cloud.nodes[node]);
@@ -111,7 +111,7 @@ template <int Dim>
 void expect_no_force(TransferCase c)
 {
   Cloud<Dim> cloud(c);
-  cloud.transfer->prime(cloud.body, cloud.grid, false);
+  cloud.transfer->prime(cloud.body, cloud.grid.topology, cloud.grid.fields, false);
   for (auto& p : cloud.particles) p.stress.setZero();
   cloud.naive.to_grid(cloud.particles, cloud.nodes);
   expect_nodes_equal(cloud);
@@ -129,10 +129,11 @@ void put_particles_on_grid_lines(ShapeKind shape)
   Cloud<Dim> cloud({shape, SchemeKind::flip});
   for (int p = 0; p < cloud.count; ++p)
     for (int d = 0; d < Dim; ++d)
-      cloud.particles[p].x[d] = cloud.grid.geometry().node_position(d, cloud.local().lower[d] + 3) +
-                                0.5 * cloud.grid.geometry().spacing[d] * ((p >> d) % 2);
+      cloud.particles[p].x[d] =
+          cloud.grid.topology.geometry().node_position(d, cloud.local().lower[d] + 3) +
+          0.5 * cloud.grid.topology.geometry().spacing[d] * ((p >> d) % 2);
   cloud.fill_body();
-  cloud.transfer->prime(cloud.body, cloud.grid, false);
+  cloud.transfer->prime(cloud.body, cloud.grid.topology, cloud.grid.fields, false);
   for (auto& p : cloud.particles) p.stress.setZero();  // their gradients jump there
   cloud.naive.to_grid(cloud.particles, cloud.nodes);
   expect_nodes_equal(cloud);

@@ -27,19 +27,20 @@ void expect_musl(TransferCase c)
 {
   Cloud<Dim> cloud(c, true);
   cloud.set_random_velocities();
-  cloud.transfer->musl_velocity(cloud.body, cloud.grid);
+  cloud.transfer->musl_velocity(cloud.body, cloud.grid.topology, cloud.grid.fields);
   cloud.naive.velocity_to_particles(cloud.nodes, cloud.particles);
   expect_particles_equal(cloud);
 
   // The remap carries the new velocities, with their affine part, to the old place.
   cloud.naive.to_grid(cloud.particles, cloud.nodes);
-  for (LocalIndex i = 0; i < cloud.grid.size(); ++i) {
+  for (LocalIndex i = 0; i < cloud.grid.topology.size(); ++i) {
     EXPECT_LT((remap_of(cloud.grid, i) - cloud.nodes[i].momentum).norm(), 100 * rounding);
-    EXPECT_EQ(cloud.grid.mass[i], 0) << "a remap adds no mass";
+    EXPECT_EQ(cloud.grid.fields.mass[i], 0) << "a remap adds no mass";
     EXPECT_EQ(force_of(cloud.grid, i).norm(), 0) << "a remap adds no force";
   }
 
-  cloud.transfer->musl_stress(cloud.body, cloud.grid, dt, cloud.wide_bounds());
+  cloud.transfer->musl_stress(cloud.body, cloud.grid.topology, cloud.grid.fields, dt,
+                              cloud.wide_bounds());
   cloud.naive.stress_update(cloud.nodes, cloud.particles, dt);
   cloud.naive.move(cloud.particles, dt);
   forget_sums<Dim>(cloud.nodes);
@@ -59,17 +60,18 @@ void expect_usf(TransferCase c)
 {
   Cloud<Dim> cloud(c);
   cloud.set_random_velocities();
-  cloud.transfer->usf_stress(cloud.body, cloud.grid, dt);
+  cloud.transfer->usf_stress(cloud.body, cloud.grid.topology, cloud.grid.fields, dt);
   cloud.naive.stress_update(cloud.nodes, cloud.particles, dt);
   cloud.naive.to_grid(cloud.particles, cloud.nodes);
-  for (LocalIndex i = 0; i < cloud.grid.size(); ++i) {
+  for (LocalIndex i = 0; i < cloud.grid.topology.size(); ++i) {
     EXPECT_LT((force_of(cloud.grid, i) - cloud.nodes[i].force).norm(), 200 * rounding);
     EXPECT_EQ(momentum_of(cloud.grid, i).norm(), 0) << "the force pass adds no momentum";
   }
   expect_particles_equal(cloud);
 
-  cloud.grid.reset();
-  cloud.transfer->usf_velocity(cloud.body, cloud.grid, dt, cloud.wide_bounds());
+  cloud.grid.fields.reset(cloud.grid.topology.runs());
+  cloud.transfer->usf_velocity(cloud.body, cloud.grid.topology, cloud.grid.fields, dt,
+                               cloud.wide_bounds());
   cloud.naive.velocity_to_particles(cloud.nodes, cloud.particles);
   cloud.naive.move(cloud.particles, dt);
   forget_sums<Dim>(cloud.nodes);
@@ -90,7 +92,7 @@ void expect_usl(TransferCase c)
 {
   Cloud<Dim> cloud(c);
   cloud.set_random_velocities();
-  cloud.transfer->usl(cloud.body, cloud.grid, dt, cloud.wide_bounds());
+  cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, dt, cloud.wide_bounds());
   cloud.naive.stress_update(cloud.nodes, cloud.particles, dt);
   cloud.naive.velocity_to_particles(cloud.nodes, cloud.particles);
   cloud.naive.move(cloud.particles, dt);

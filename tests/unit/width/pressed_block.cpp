@@ -11,6 +11,8 @@
 
 #include <cstdio>
 
+#include "node_grid.hpp"
+
 namespace mpm {
 namespace {
 
@@ -49,7 +51,7 @@ NodeGrid<2> grid_around(int support)
   const IndexBox<2> all{IndexVec<2>::Zero(), nodes};
   NodeGrid<2> grid({Vec<2>::Constant(-margin * h), Vec<2>::Constant(h), nodes}, all, all,
                    1e-24 * density * h * h);
-  for (LocalIndex node = 0; node < grid.size(); ++node) grid.touch(node);
+  for (LocalIndex node = 0; node < grid.topology.size(); ++node) grid.topology.touch(node);
   grid.end_activity(support);
   return grid;
 }
@@ -92,18 +94,18 @@ void press(const char* name, const Transfer<2>& transfer, std::unique_ptr<Law<2>
   Walls walls;
   const Vec<2> far = Vec<2>::Constant(1);
   const MoveBounds<2> bounds{-far, far};
-  transfer.prime(body, grid, true);
+  transfer.prime(body, grid.topology, grid.fields, true);
   for (int step = 0; step < steps; ++step) {
-    grid.update_velocity(dt);
-    walls.piston.constrain_updated(grid, step * dt, dt);
-    walls.edge.constrain_updated(grid, step * dt, dt);
-    grid.reset_remap();
-    transfer.musl_velocity(body, grid);
-    grid.gradient_from_remap();
-    walls.piston.constrain_gradient(grid, step * dt, dt);
-    walls.edge.constrain_gradient(grid, step * dt, dt);
-    grid.reset();
-    transfer.musl_stress(body, grid, dt, bounds);
+    grid.fields.update_velocity(grid.topology.runs(), dt);
+    walls.piston.constrain_updated(grid.topology, grid.fields, step * dt, dt);
+    walls.edge.constrain_updated(grid.topology, grid.fields, step * dt, dt);
+    grid.fields.reset_remap(grid.topology.runs());
+    transfer.musl_velocity(body, grid.topology, grid.fields);
+    grid.fields.gradient_from_remap(grid.topology.runs());
+    walls.piston.constrain_gradient(grid.topology, grid.fields, step * dt, dt);
+    walls.edge.constrain_gradient(grid.topology, grid.fields, step * dt, dt);
+    grid.fields.reset(grid.topology.runs());
+    transfer.musl_stress(body, grid.topology, grid.fields, dt, bounds);
   }
   print(name, body, walls);
 }

@@ -1,0 +1,98 @@
+#pragma once
+/// What the nodes carry in a step: the columns of one velocity field. Bodies that move as one share
+/// a field; bodies in contact, or the sides of a contact, have one each.
+
+#include <mpm/core/archive.hpp>
+#include <mpm/core/lane_vector.hpp>
+#include <mpm/grid/grid_topology.hpp>
+
+namespace mpm {
+
+/// Values of nodes somewhere in memory, `width` of them per node:
+/// value c of node i is values[i * stride + c].
+struct NodeColumn {
+  double* values;
+  int stride;
+  int width;
+};
+
+template <int Dim>
+class NodeFields {
+ public:
+  /// Width of a node's record: momentum and force, or updated velocity and its increment.
+  static constexpr int record_width = Dim == 2 ? 4 : 8;
+  /// In 2D the velocity is there twice, so that one product yields both columns of its gradient.
+  static constexpr int velocity_width = 4;
+  static constexpr int remap_width = Dim == 2 ? 2 : 4;
+  /// Sums that a step with mass, momentum and force sends for each node.
+  static constexpr int values_per_node = 1 + 2 * Dim;
+
+  /// What an update order needs beside mass, momentum, force and velocities.
+  struct Needs {
+    bool remap = false;       ///< re-mapped momentum
+    bool load_force = false;  ///< force from outside, for its work
+  };
+
+  /// `mass_cut`, kg: nodes with less take no part.
+  NodeFields(LocalIndex nodes, const Needs& needs, double mass_cut);
+
+  bool is_active(LocalIndex node) const { return mass[node] > mass_cut_; }
+
+  using Runs = std::span<const NodeRun<Dim>>;
+  /// Zeroes mass, momentum, force and load force.
+  void reset(Runs runs);
+  void reset_remap(Runs runs);
+  /// Zeroes everything that these nodes carry.
+  void clear(std::span<const LocalIndex> nodes);
+
+  /// f += load force
+  void add_load_force(Runs runs);
+  /// v = mv / m, dv = dt f / m: `updated` becomes {v + dv, dv}.
+  void update_velocity(Runs runs, double dt);
+  /// `gradient_velocity` becomes momentum / m (USF), re-mapped momentum / m (MUSL), or the updated
+  /// velocity (USL).
+  void gradient_from_momentum(Runs runs);
+  void gradient_from_remap(Runs runs);
+  void gradient_from_updated(Runs runs);
+
+  double* updated_of(LocalIndex node) { return updated.data() + std::size_t(node) * record_width; }
+  double* force_of(LocalIndex node)
+  {
+    return momentum_force.data() + std::size_t(node) * record_width + Dim;
+  }
+  double* gradient_velocity_of(LocalIndex node)
+  {
+    return gradient_velocity.data() + std::size_t(node) * velocity_width;
+  }
+  void set_gradient_velocity(LocalIndex node, int component, double value);
+
+  // For sums over the ranks.
+  NodeColumn mass_column() { return {mass.data(), 1, 1}; }
+  NodeColumn momentum_column() { return {momentum_force.data(), record_width, Dim}; }
+  NodeColumn force_column() { return {momentum_force.data() + Dim, record_width, Dim}; }
+  NodeColumn momentum_force_column() { return {momentum_force.data(), record_width, 2 * Dim}; }
+  NodeColumn load_force_column() { return {load_force.data(), Dim, Dim}; }
+  NodeColumn remap_column() { return {remapped_momentum.data(), remap_width, Dim}; }
+
+  void archive(Archive& archive);
+  std::size_t bytes() const;
+  /// Of memory per node.
+  static double bytes_per_node(const Needs& needs)
+  {
+    return sizeof(double) * (1.0 + 2 * record_width + velocity_width + needs.remap * remap_width +
+                             needs.load_force * Dim);
+  }
+
+  // Node values, local numbering, x fastest. [N], [N * record_width], ...; kg, kg m/s and N, m/s.
+  LaneVector<double> mass;
+  LaneVector<double> momentum_force;     ///< {mv, f}
+  LaneVector<double> updated;            ///< {v after the step, its increment dt a}
+  LaneVector<double> remapped_momentum;  ///< empty where it is not needed
+  LaneVector<double> load_force;         ///< [N * Dim], empty where there are no loads
+  LaneVector<double> gradient_velocity;  ///< what the velocity gradient is taken of
+
+ private:
+  double mass_cut_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,81 @@
+#pragma once
+/// What the run around it may know of a formulation: the one that is there keeps its weights in the
+/// present configuration (updated_lagrangian.hpp); another may keep them in the reference one.
+
+#include <mpm/core/archive.hpp>
+#include <mpm/materials/law.hpp>
+#include <mpm/parallel/decomposition.hpp>
+
+#include <functional>
+#include <vector>
+
+namespace mpm {
+
+/// What the ranks told each other in the last check.
+struct Agreed {
+  double largest_speed = 0;  ///< m/s, component of a particle's grid velocity in the last step
+  double wave_speed = 0;     ///< m/s, of the fastest wave in the particles as they are
+  /// Counted work of a step (in particles): of the busiest rank, the mean, and this rank's.
+  double busiest_work = 0, mean_work = 0, own_work = 0;
+  GlobalIndex most_particles = 0;
+  double mean_particles = 0;
+
+  double work_imbalance() const { return mean_work > 0 ? busiest_work / mean_work : 1.0; }
+  /// Particles of the fullest rank over the mean.
+  double imbalance() const { return mean_particles > 0 ? most_particles / mean_particles : 1.0; }
+  void archive(Archive& archive);
+};
+
+/// Of this rank since the start.
+struct Counters {
+  GlobalIndex migrated = 0;  ///< particles that left in a step
+  GlobalIndex messages = 0, bytes = 0;
+  double waiting_seconds = 0;
+  void archive(Archive& archive);
+};
+
+/// Steps bodies of particles on this rank. All members but the plain look-ups are collective.
+template <int Dim>
+class Formulation {
+ public:
+  virtual ~Formulation() = default;
+
+  /// Every `steps_between_checks` steps it ends with `check`.
+  virtual void step(double dt) = 0;
+  static constexpr GlobalIndex steps_between_checks = 20;
+  /// Throws NumericalError on every rank if a particle of any rank was lost or stopped being a
+  /// number since the last check; what is measured after that means nothing.
+  virtual void check() = 0;
+  virtual const Agreed& agreed() const = 0;
+
+  virtual double time() const = 0;  ///< s
+  virtual GlobalIndex steps() const = 0;
+  virtual const std::vector<Body<Dim>>& bodies() const = 0;
+  virtual const Decomposition<Dim>& decomposition() const = 0;
+
+  /// When a step leaves the stresses, counted from the moment of the velocities, in steps.
+  virtual double stress_moment() const = 0;
+  /// s, the largest step that loads, contact and transport bear.
+  virtual double largest_step() const = 0;
+
+  /// Whether cells, and the particles in them, can go to other ranks between steps.
+  virtual bool can_repartition() const = 0;
+  /// Returns how many particles this rank sent.
+  virtual GlobalIndex repartition(const Ownership<Dim>& ownership) = 0;
+  /// visit(cell, work) for all that this rank works on in a step, in particles.
+  virtual void visit_work(
+      const std::function<void(const IndexVec<Dim>& cell, double work)>& visit) const = 0;
+
+  virtual Counters counters() const = 0;
+  virtual std::size_t bytes() const = 0;  ///< of particle and node arrays on this rank
+  virtual void archive(Archive& archive) = 0;
+
+  LocalIndex particles() const
+  {
+    LocalIndex count = 0;
+    for (const Body<Dim>& body : bodies()) count += body.particles.size();
+    return count;
+  }
+};
+
+}  // namespace mpm

@@ -1,0 +1,45 @@
+#pragma once
+/// The stages of which the update orders are made.
+
+#include <mpm/stepping/exchange.hpp>
+#include <mpm/stepping/slots.hpp>
+
+#include <vector>
+
+namespace mpm {
+
+/// Everything that a step works on. A body moves in the velocity field that it names.
+template <int Dim>
+struct Step {
+  Exchange<Dim>& exchange;
+  const Transfer<Dim>& transfer;
+  std::vector<Body<Dim>>& bodies;
+  std::vector<NodeFields<Dim>>& fields;
+  Slots<Dim>& slots;
+  Moment moment;
+
+  const GridTopology<Dim>& grid() const { return exchange.topology(); }
+  NodeFields<Dim>& fields_of(const BodyPart<Dim>& part) const { return fields[part.body.field]; }
+  double time() const { return moment.time; }
+
+  /// v_i = ((mv)_i + dt f_i) / m_i with the loads' forces; then contact and conditions.
+  void update_velocity(double dt);
+  /// Velocities whose gradient is taken, at time() + dt: contact and conditions.
+  void constrain_gradient(double dt);
+  /// Every field's sums become zero.
+  void reset();
+
+  /// One of the columns of every field.
+  using ColumnOf = NodeColumn (NodeFields<Dim>::*)();
+  std::vector<NodeColumn> columns(std::initializer_list<ColumnOf> which) const;
+  /// Mass and momentum, and the load force that particles will bring.
+  std::vector<NodeColumn> sums(std::initializer_list<ColumnOf> which) const;
+  /// Once a part has moved: P2G of the loads on its particles, for the next step.
+  MoveOutcome<Dim> with_loads(const BodyPart<Dim>& part, double dt, MoveOutcome<Dim> moved) const
+  {
+    slots.loads.scatter(part, transfer, grid(), fields_of(part), time() + dt);
+    return moved;
+  }
+};
+
+}  // namespace mpm

@@ -1,0 +1,59 @@
+#include <mpm/conditions/loads.hpp>
+
+#include <algorithm>
+
+namespace mpm {
+
+template <int Dim>
+Loads<Dim>::Loads(std::vector<std::unique_ptr<Load<Dim>>> loads) : loads_(std::move(loads))
+{
+  for (const auto& load : loads_) on_particles_ = on_particles_ || load->acts_on_particles();
+}
+
+template <int Dim>
+void Loads<Dim>::scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfer,
+                         const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time) const
+{
+  if (!on_particles_) return;
+  transfer.load_force(part, grid, fields, [&](LocalIndex block, Lanes(&force)[Dim]) {
+    for (const auto& load : loads_) load->add_to_particles(part.body, block, time, force);
+  });
+}
+
+template <int Dim>
+void Loads<Dim>::apply(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time,
+                       double dt) const
+{
+  if (loads_.empty()) return;
+  for (const auto& load : loads_) load->add_to_nodes(grid, grid.runs(), fields, time, dt);
+  fields.add_load_force(grid.runs());
+}
+
+template <int Dim>
+void Loads<Dim>::book(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt)
+{
+  if (loads_.empty()) return;
+  for (const NodeRun<Dim>& run : grid.runs())
+    for (LocalIndex node = run.first; node < run.first + run.length; ++node) {
+      if (!grid.is_owned(node) || !fields.is_active(node)) continue;
+      const double* u = fields.updated_of(node);
+      for (int d = 0; d < Dim; ++d) {
+        const double impulse = dt * fields.load_force[std::size_t(node) * Dim + d];
+        reaction_.impulse[d] += impulse;
+        reaction_.work += impulse * (u[d] - 0.5 * u[Dim + d]);
+      }
+    }
+}
+
+template <int Dim>
+double Loads<Dim>::largest_step() const
+{
+  double step = std::numeric_limits<double>::infinity();
+  for (const auto& load : loads_) step = std::min(step, load->largest_step());
+  return step;
+}
+
+template class Loads<2>;
+template class Loads<3>;
+
+}  // namespace mpm

@@ -1,0 +1,38 @@
+#include <mpm/stepping/slots.hpp>
+
+#include <algorithm>
+#include <string>
+
+namespace mpm {
+
+template <int Dim>
+double Slots<Dim>::largest_step() const
+{
+  double step = loads.largest_step();
+  for (const auto& contact : contacts) step = std::min(step, contact->largest_step());
+  for (const auto& transport : transports) step = std::min(step, transport->largest_step());
+  return step;
+}
+
+template <int Dim>
+void Slots<Dim>::archive(Archive& archive)
+{
+  const auto all = [&](const char* kind, auto& members) {
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const Archive::Section section(archive, kind + std::to_string(k));
+      members[k]->archive(archive);
+    }
+  };
+  {
+    const Archive::Section section(archive, "loads");
+    loads.archive(archive);
+  }
+  all("contact", contacts);
+  all("condition", conditions);
+  all("transport", transports);
+}
+
+template struct Slots<2>;
+template struct Slots<3>;
+
+}  // namespace mpm

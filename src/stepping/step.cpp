@@ -1,0 +1,56 @@
+#include <mpm/stepping/step.hpp>
+
+namespace mpm {
+
+template <int Dim>
+void Step<Dim>::update_velocity(double dt)
+{
+  for (NodeFields<Dim>& field : fields) {
+    slots.loads.apply(grid(), field, time(), dt);
+    field.update_velocity(grid().runs(), dt);
+  }
+  for (const auto& contact : slots.contacts) contact->exchange_momentum(grid(), fields, time(), dt);
+  for (NodeFields<Dim>& field : fields) {
+    for (const auto& condition : slots.conditions)
+      condition->constrain_updated(grid(), field, time(), dt);
+    slots.loads.book(grid(), field, dt);
+  }
+}
+
+template <int Dim>
+void Step<Dim>::constrain_gradient(double dt)
+{
+  for (const auto& contact : slots.contacts) contact->exchange_gradient(grid(), fields, time(), dt);
+  for (NodeFields<Dim>& field : fields)
+    for (const auto& condition : slots.conditions)
+      condition->constrain_gradient(grid(), field, time(), dt);
+}
+
+template <int Dim>
+void Step<Dim>::reset()
+{
+  for (NodeFields<Dim>& field : fields) field.reset(grid().runs());
+}
+
+template <int Dim>
+std::vector<NodeColumn> Step<Dim>::columns(std::initializer_list<ColumnOf> which) const
+{
+  std::vector<NodeColumn> list;
+  for (NodeFields<Dim>& field : fields)
+    for (const ColumnOf column : which) list.push_back((field.*column)());
+  return list;
+}
+
+template <int Dim>
+std::vector<NodeColumn> Step<Dim>::sums(std::initializer_list<ColumnOf> which) const
+{
+  std::vector<NodeColumn> list = columns(which);
+  if (slots.loads.act_on_particles())
+    for (NodeFields<Dim>& field : fields) list.push_back(field.load_force_column());
+  return list;
+}
+
+template struct Step<2>;
+template struct Step<3>;
+
+}  // namespace mpm

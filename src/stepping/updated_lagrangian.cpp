@@ -1,0 +1,128 @@
+#include <mpm/core/error.hpp>
+#include <mpm/parallel/redistribution.hpp>
+#include <mpm/stepping/updated_lagrangian.hpp>
+
+#include <algorithm>
+
+namespace mpm {
+
+template <int Dim>
+UpdatedLagrangian<Dim>::UpdatedLagrangian(Decomposition<Dim> decomposition, Setup setup)
+    : setup_(std::move(setup))
+{
+  connect(std::move(decomposition));
+}
+
+template <int Dim>
+void UpdatedLagrangian<Dim>::connect(Decomposition<Dim> decomposition)
+{
+  exchange_ = std::make_unique<Exchange<Dim>>(std::move(decomposition), *setup_.transfer);
+  typename NodeFields<Dim>::Needs needs = setup_.order->needs();
+  needs.load_force = !setup_.slots.loads.empty();
+  int fields = 1;
+  for (const Body<Dim>& body : setup_.bodies) fields = std::max(fields, body.field + 1);
+  fields_.clear();
+  for (int f = 0; f < fields; ++f) fields_.emplace_back(grid().size(), needs, setup_.mass_cut);
+
+  sort_and_activate();
+  Step<Dim> step = next_step();
+  step.reset();
+  const bool with_force = setup_.order->begins_with_force();
+  for (Body<Dim>& body : setup_.bodies) {
+    step.transfer.prime(body, grid(), step.fields_of(body), with_force);
+    step.with_loads(body, 0, {});
+  }
+  using Fields = NodeFields<Dim>;
+  exchange_->halo().sum(step.sums({&Fields::mass_column, with_force ? &Fields::momentum_force_column
+                                                                    : &Fields::momentum_column}));
+}
+
+template <int Dim>
+Step<Dim> UpdatedLagrangian<Dim>::next_step()
+{
+  return {*exchange_, *setup_.transfer, setup_.bodies, fields_, setup_.slots, {steps_ + 1, time_}};
+}
+
+template <int Dim>
+void UpdatedLagrangian<Dim>::sort_and_activate()
+{
+  const std::vector<LocalIndex> left = exchange_->sort(setup_.bodies);
+  for (NodeFields<Dim>& field : fields_) field.clear(left);
+}
+
+template <int Dim>
+void UpdatedLagrangian<Dim>::step(double dt)
+{
+  Step<Dim> step = next_step();
+  setup_.order->step(step, dt);
+  if (exchange_->sort_is_due()) sort_and_activate();
+  for (const auto& transport : setup_.slots.transports)
+    transport->advance(*exchange_, setup_.bodies, time_, dt);
+  time_ += dt;
+  ++steps_;
+  if (steps_ % Formulation<Dim>::steps_between_checks == 0) check();
+}
+
+template <int Dim>
+GlobalIndex UpdatedLagrangian<Dim>::repartition(const Ownership<Dim>& ownership)
+{
+  counters_ = counters();
+  Decomposition<Dim> next(decomposition().comm(), ownership);
+  const GlobalIndex sent = redistribute(next, setup_.bodies).sent;
+  connect(std::move(next));
+  return sent;
+}
+
+template <int Dim>
+Counters UpdatedLagrangian<Dim>::counters() const
+{
+  Counters sum = counters_;
+  sum.migrated += exchange_->migrated();
+  sum.messages += exchange_->messages();
+  sum.bytes += exchange_->bytes_sent();
+  sum.waiting_seconds += exchange_->waiting_seconds();
+  return sum;
+}
+
+template <int Dim>
+std::size_t UpdatedLagrangian<Dim>::bytes() const
+{
+  std::size_t bytes = grid().bytes();
+  for (const NodeFields<Dim>& field : fields_) bytes += field.bytes();
+  for (const Body<Dim>& body : setup_.bodies) bytes += body.particles.bytes();
+  return bytes;
+}
+
+template <int Dim>
+void UpdatedLagrangian<Dim>::archive(Archive& archive)
+{
+  archive.value("time", time_);
+  archive.value("steps", steps_);
+  archive.value("checked", checked_);
+  {
+    const Archive::Section section(archive, "agreed");
+    agreed_.archive(archive);
+  }
+  {
+    const Archive::Section section(archive, "counters");
+    counters_.archive(archive);
+  }
+  for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
+    const Archive::Section section(archive, "body" + std::to_string(b));
+    setup_.bodies[b].particles.archive(archive);
+  }
+  {
+    const Archive::Section section(archive, "exchange");
+    exchange_->archive(archive);
+  }
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    const Archive::Section section(archive, "field" + std::to_string(f));
+    fields_[f].archive(archive);
+  }
+  setup_.slots.archive(archive);
+}
+
+template class UpdatedLagrangian<2>;
+template class UpdatedLagrangian<3>;
+
+}  // namespace mpm
