@@ -131,6 +131,8 @@ std::string plan_text(const scene::Scene& scene, const micrograph::Specimen<2>& 
   for (std::size_t k = 1; k < specimen.densities().size(); ++k)
     line("", fmt::format("{}: {:.4f}, {:.0f} kg/m3", specimen.densities()[k].window,
                          specimen.densities()[k].value, specimen.densities()[k].bulk_density));
+  if (specimen.picture())
+    line("picture", fmt::format("relative density {:.4f}", specimen.picture()->density));
   line("bulk density", fmt::format("{:.1f} kg/m3", specimen.densities().front().bulk_density));
   line("grid", fmt::format("{} x {} cells of {:.4g} x {:.4g} um, {} x {} locations per cell",
                            specimen.cells()[0], specimen.cells()[1],

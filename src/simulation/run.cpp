@@ -206,6 +206,10 @@ class Run {
     summary.set("name", scene_.name);
     summary.set("title", scene_.title);
     summary.set("relative_density", specimen_.densities().front().value);
+    if (specimen_.picture()) {
+      summary.set("picture_relative_density", specimen_.picture()->density);
+      summary.set("removed_locations", specimen_.picture()->removed);
+    }
     summary.set("bulk_density", specimen_.densities().front().bulk_density);
     for (std::size_t k = 1; k < specimen_.densities().size(); ++k)
       summary.section("windows").set(specimen_.densities()[k].window,
