@@ -7,7 +7,10 @@
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/run.hpp>
 
+#include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <span>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -21,17 +24,36 @@ void print_once(const std::string& text)
   if (rank_of(MPI_COMM_WORLD) == 0) fmt::print("{}", text);
 }
 
+void refuse_what_cannot_run(const scene::Scene& scene)
+{
+  if (scene.dimensions != 2)
+    throw InputError(scene.file.string() +
+                     ": a scene in space can be read, but not run yet. Give specimen.size two "
+                     "components, and no specimen.depth.");
+  const auto is_periodic = [](scene::Lateral side) { return side == scene::Lateral::periodic; };
+  const auto* loading = std::get_if<scene::Loading>(&scene.motion);
+  if (loading ? std::ranges::any_of(loading->lateral, is_periodic)
+              : std::ranges::any_of(std::get<scene::FreeMotion>(scene.motion).sides, is_periodic))
+    throw InputError(
+        scene.file.string() +
+        ": periodic sides can be read, but not run yet. Use rigid, free or symmetric.");
+}
+
 void read_and_run(const scene::CommandLine& command_line)
 {
   scene::Scene scene;
-  micrograph::SpecimenModel specimen;
+  std::optional<micrograph::Picture> picture;
   Layout layout;
   // Every rank reads: the same file gives the same scene, and an unreadable one stops all of them.
   agree(MPI_COMM_WORLD, [&] {
     scene = scene::read_scene(command_line.scene, command_line.overrides);
-    specimen = micrograph::build_specimen(scene);
-    layout = make_layout(scene, specimen);
+    refuse_what_cannot_run(scene);
+    picture = micrograph::read_picture(scene);
   });
+  const auto sum = [](std::span<double> values) { sum_over_ranks(MPI_COMM_WORLD, values); };
+  const micrograph::Share share{rank_of(MPI_COMM_WORLD), ranks_of(MPI_COMM_WORLD), sum};
+  const micrograph::Specimen<2> specimen(scene, std::move(picture), share);
+  agree(MPI_COMM_WORLD, [&] { layout = make_layout(scene, specimen); });
   const Decomposition<2> decomposition =
       make_decomposition(MPI_COMM_WORLD, scene, specimen, layout);
   print_once(plan_text(scene, specimen, layout, decomposition));

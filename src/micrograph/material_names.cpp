@@ -1,7 +1,7 @@
 #include <mpm/core/error.hpp>
 #include <mpm/core/nearest_name.hpp>
+#include <mpm/micrograph/lattice.hpp>
 #include <mpm/micrograph/material_names.hpp>
-#include <mpm/micrograph/specimen.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -22,7 +22,7 @@ MaterialNames::MaterialNames(const std::vector<scene::Material>& materials)
 
 std::int8_t MaterialNames::index(const std::string& name, std::string_view key) const
 {
-  if (name == "void") return Lattice::empty;
+  if (name == "void") return Lattice<2>::empty;
   if (name.empty() && names_.size() == 1) return 0;
   if (name.empty())
     throw InputError(fmt::format("{} is missing. Name one of: {}.", key, fmt::join(names_, ", ")));

@@ -1,7 +1,10 @@
 #include <mpm/micrograph/pieces.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
+#include <optional>
+#include <unordered_map>
 
 namespace mpm::micrograph {
 
@@ -30,36 +33,23 @@ class DisjointSets {
   std::vector<std::int32_t> parent_;
 };
 
-/// Empties the locations of every piece that `keep` refuses.
-template <class Keep>
-std::int64_t remove_pieces(Lattice& lattice, const Pieces& pieces, Keep keep)
-{
-  std::int64_t removed = 0;
-  for (std::size_t location = 0; location < lattice.material.size(); ++location) {
-    const std::int32_t piece = pieces.label[location];
-    if (piece == Pieces::none || keep(piece)) continue;
-    lattice.material[location] = Lattice::empty;
-    if (!lattice.shape.empty()) lattice.shape[location] = -1;
-    ++removed;
-  }
-  return removed;
-}
-
 }  // namespace
 
-Pieces connected_pieces(const Lattice& lattice)
+Pieces connected_pieces(const Lattice<2>& lattice)
 {
   // Two passes over the rows: provisional labels from the neighbours at the left and below, then
   // one number for each set of labels that met.
   Pieces pieces;
   pieces.label.assign(lattice.material.size(), Pieces::none);
   DisjointSets sets;
-  for (int j = 0; j < lattice.ny; ++j)
-    for (int i = 0; i < lattice.nx; ++i) {
-      if (lattice(i, j) == Lattice::empty) continue;
-      std::int32_t* label = &pieces.label[std::size_t(j) * lattice.nx + i];
+  const LocalIndex nx = lattice.part.count()[0], ny = lattice.part.count()[1];
+  for (LocalIndex j = 0; j < ny; ++j)
+    for (LocalIndex i = 0; i < nx; ++i) {
+      const std::size_t location = std::size_t(j) * nx + i;
+      if (lattice.material[location] == Lattice<2>::empty) continue;
+      std::int32_t* label = &pieces.label[location];
       const std::int32_t left = i > 0 ? label[-1] : Pieces::none;
-      const std::int32_t below = j > 0 ? *(label - lattice.nx) : Pieces::none;
+      const std::int32_t below = j > 0 ? *(label - nx) : Pieces::none;
       if (left != Pieces::none && below != Pieces::none)
         *label = sets.join(left, below);
       else
@@ -67,13 +57,16 @@ Pieces connected_pieces(const Lattice& lattice)
     }
 
   std::vector<std::int32_t> number_of_root;
-  for (std::int32_t& label : pieces.label) {
+  for (std::size_t location = 0; location < pieces.label.size(); ++location) {
+    std::int32_t& label = pieces.label[location];
     if (label == Pieces::none) continue;
     const auto root = std::size_t(sets.root(label));
     if (root >= number_of_root.size()) number_of_root.resize(root + 1, Pieces::none);
     if (number_of_root[root] == Pieces::none) {
       number_of_root[root] = std::int32_t(pieces.size.size());
       pieces.size.push_back(0);
+      const auto at = LocalIndex(location);
+      pieces.first.push_back(lattice.id(lattice.part.lower + IndexVec<2>(at % nx, at / nx)));
     }
     label = number_of_root[root];
     ++pieces.size[std::size_t(label)];
@@ -81,19 +74,152 @@ Pieces connected_pieces(const Lattice& lattice)
   return pieces;
 }
 
-std::int64_t remove_specks(Lattice& lattice, std::int64_t fewest_locations)
+namespace {
+
+/// A piece, or the pieces of several parts that are one.
+struct Group {
+  GlobalIndex first;
+  double size;
+};
+bool is_larger(const Group& a, const Group& b)
 {
-  const Pieces pieces = connected_pieces(lattice);
-  return remove_pieces(lattice, pieces, [&](std::int32_t piece) {
-    return pieces.size[std::size_t(piece)] >= fewest_locations;
-  });
+  return a.size > b.size || (a.size == b.size && a.first < b.first);
 }
 
-std::int64_t keep_largest_piece(Lattice& lattice)
+/// The pieces that reach a border between parts, joined across the borders. A piece is known by the
+/// number of its first location.
+class BorderPieces {
+ public:
+  BorderPieces(const Lattice<2>& rows, const Pieces& pieces, const Share& share)
+  {
+    const LocalIndex nx = rows.count[0];
+    const IndexBox<2> whole{IndexVec<2>::Zero(), rows.count};
+    std::vector<LocalIndex> borders;  // rows that are the first of a part, but for the lowest
+    for (int part = 0; part < share.parts; ++part)
+      if (const LocalIndex row = slab(whole, part, share.parts).lower[1];
+          row > 0 && row < rows.count[1] && (borders.empty() || row > borders.back()))
+        borders.push_back(row);
+
+    // Below and above each border: the piece's first location + 1 (0: void) and its size.
+    std::vector<double> sides(borders.size() * nx * 4);
+    for (std::size_t border = 0; border < borders.size(); ++border)
+      for (int above = 0; above < 2; ++above) {
+        const LocalIndex row = borders[border] - 1 + above;
+        if (row < rows.part.lower[1] || row >= rows.part.upper[1]) continue;
+        for (LocalIndex i = 0; i < nx; ++i) {
+          const std::int32_t piece = pieces.label[rows.place({i, row})];
+          if (piece == Pieces::none) continue;
+          double* side = &sides[((border * nx + i) * 2 + above) * 2];
+          side[0] = double(pieces.first[piece] + 1);
+          side[1] = double(pieces.size[piece]);
+        }
+      }
+    share.sum(sides);
+    for (std::size_t at = 0; at < sides.size(); at += 4) {
+      const std::int32_t below = number_of(sides[at], sides[at + 1]);
+      const std::int32_t above = number_of(sides[at + 2], sides[at + 3]);
+      if (below != Pieces::none && above != Pieces::none) sets_.join(below, above);
+    }
+    joined_.assign(own_.size(), Group{std::numeric_limits<GlobalIndex>::max(), 0});
+    for (std::size_t piece = 0; piece < own_.size(); ++piece) {
+      Group& group = joined_[std::size_t(sets_.root(std::int32_t(piece)))];
+      group.size += own_[piece].size;
+      group.first = std::min(group.first, own_[piece].first);
+    }
+  }
+
+  /// The whole that a piece is part of; nothing if it reaches no border.
+  std::optional<Group> whole_of(GlobalIndex first)
+  {
+    const auto found = numbers_.find(first);
+    if (found == numbers_.end()) return std::nullopt;
+    return joined_[std::size_t(sets_.root(found->second))];
+  }
+
+ private:
+  std::int32_t number_of(double first_and_one, double size)
+  {
+    if (first_and_one == 0) return Pieces::none;
+    const GlobalIndex first = GlobalIndex(first_and_one) - 1;
+    const auto [found, is_new] = numbers_.try_emplace(first, std::int32_t(own_.size()));
+    if (is_new) {
+      sets_.add();
+      own_.push_back({first, size});
+    }
+    return found->second;
+  }
+
+  std::unordered_map<GlobalIndex, std::int32_t> numbers_;
+  std::vector<Group> own_, joined_;
+  DisjointSets sets_;
+};
+
+/// The largest of the groups that the parts name.
+Group largest_over_parts(const Group& own, const Share& share)
 {
-  const Pieces pieces = connected_pieces(lattice);
-  const auto largest = std::ranges::max_element(pieces.size) - pieces.size.begin();
-  return remove_pieces(lattice, pieces, [&](std::int32_t piece) { return piece == largest; });
+  std::vector<double> all(std::size_t(share.parts) * 2);
+  all[std::size_t(share.part) * 2] = own.size;
+  all[std::size_t(share.part) * 2 + 1] = double(own.first);
+  share.sum(all);
+  Group largest = own;
+  for (std::size_t at = 0; at < all.size(); at += 2)
+    if (const Group group{GlobalIndex(all[at + 1]), all[at]}; is_larger(group, largest))
+      largest = group;
+  return largest;
+}
+
+/// The runs of all parts, in the order of the parts.
+std::vector<Run> gathered(const std::vector<Run>& own, const Share& share)
+{
+  std::vector<double> count(std::size_t(share.parts));
+  count[std::size_t(share.part)] = double(own.size());
+  share.sum(count);
+  const auto before = std::size_t(std::accumulate(count.begin(), count.begin() + share.part, 0.0));
+  const auto total = std::size_t(std::accumulate(count.begin(), count.end(), 0.0));
+  std::vector<double> numbers(3 * total);
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    numbers[3 * (before + k)] = own[k].row;
+    numbers[3 * (before + k) + 1] = own[k].begin;
+    numbers[3 * (before + k) + 2] = own[k].end;
+  }
+  share.sum(numbers);
+  std::vector<Run> all;
+  for (std::size_t at = 0; at < numbers.size(); at += 3)
+    all.push_back(
+        {LocalIndex(numbers[at]), LocalIndex(numbers[at + 1]), LocalIndex(numbers[at + 2])});
+  return all;
+}
+
+}  // namespace
+
+std::vector<Run> removed_runs(const Lattice<2>& rows, const PieceRules& rules, const Share& share)
+{
+  const Pieces pieces = connected_pieces(rows);
+  BorderPieces at_borders(rows, pieces, share);
+  std::vector<Group> groups;  // the whole that each piece is part of
+  Group largest{std::numeric_limits<GlobalIndex>::max(), 0};
+  for (std::size_t piece = 0; piece < pieces.size.size(); ++piece) {
+    const Group alone{pieces.first[piece], double(pieces.size[piece])};
+    groups.push_back(at_borders.whole_of(alone.first).value_or(alone));
+    if (is_larger(groups.back(), largest)) largest = groups.back();
+  }
+  largest = largest_over_parts(largest, share);
+
+  std::vector<Run> runs;
+  for (LocalIndex j = rows.part.lower[1]; j < rows.part.upper[1]; ++j)
+    for (LocalIndex i = 0; i < rows.count[0]; ++i) {
+      const std::int32_t piece = pieces.label[rows.place({i, j})];
+      if (piece == Pieces::none) continue;
+      const Group& group = groups[std::size_t(piece)];
+      if (group.size >= double(rules.fewest_locations) &&
+          (!rules.only_largest || group.first == largest.first))
+        continue;
+      if (!runs.empty() && runs.back().row == j && runs.back().end == i)
+        ++runs.back().end;
+      else
+        runs.push_back({j, i, i + 1});
+    }
+  return gathered(runs, share);
 }
 
 }  // namespace mpm::micrograph

@@ -14,24 +14,41 @@
 
 namespace mpm::micrograph {
 
-void write_preview(const SpecimenModel& model, const std::filesystem::path& file)
+template <int Dim>
+void write_preview(const Specimen<Dim>& specimen, const std::filesystem::path& file,
+                   int most_pixels)
 {
-  const Lattice& lattice = model.lattice;
-  const int last = std::max<int>(1, *std::ranges::max_element(lattice.material));
+  const IndexVec<Dim>& count = specimen.count();
+  const auto& particles = specimen.particles_of_material();
+  int last = int(particles.size()) - 1;
+  while (last > 1 && particles[std::size_t(last)] == 0) --last;
+  last = std::max(last, 1);
   constexpr int white = 255, darkest = 96;  // well apart from black
+  const int longest = std::max(count[0], count[1]);
+  const int stride = (longest + most_pixels - 1) / most_pixels;
+  const int width = (count[0] + stride - 1) / stride, height = (count[1] + stride - 1) / stride;
   std::vector<std::uint8_t> pixels;
-  pixels.reserve(lattice.material.size());
-  for (int j = lattice.ny - 1; j >= 0; --j)
-    for (int i = 0; i < lattice.nx; ++i) {
-      const int material = lattice(i, j);
-      pixels.push_back(material == Lattice::empty
+  pixels.reserve(std::size_t(width) * height);
+  for (int j = height - 1; j >= 0; --j) {
+    IndexBox<Dim> row = specimen.whole();
+    if constexpr (Dim == 3) row.lower[2] = count[2] / 2;
+    row.lower[1] = j * stride;
+    for (int d = 1; d < Dim; ++d) row.upper[d] = row.lower[d] + 1;
+    const Lattice<Dim> lattice = specimen.lattice(row);
+    for (int i = 0; i < width; ++i) {
+      const int material = lattice.material[std::size_t(i) * stride];
+      pixels.push_back(material == Lattice<Dim>::empty
                            ? std::uint8_t(0)
                            : std::uint8_t(white - (white - darkest) * material / last));
     }
-  if (!stbi_write_png(file.c_str(), lattice.nx, lattice.ny, 1, pixels.data(), lattice.nx))
+  }
+  if (!stbi_write_png(file.c_str(), width, height, 1, pixels.data(), width))
     throw FileError(file.string() +
                     ": the preview cannot be written. Check that the directory "
                     "exists, is writable and has space left.");
 }
+
+template void write_preview<2>(const Specimen<2>&, const std::filesystem::path&, int);
+template void write_preview<3>(const Specimen<3>&, const std::filesystem::path&, int);
 
 }  // namespace mpm::micrograph

@@ -1,10 +1,10 @@
 #include <mpm/core/error.hpp>
-#include <mpm/micrograph/image.hpp>
-#include <mpm/micrograph/lattice.hpp>
-#include <mpm/micrograph/pieces.hpp>
 #include <mpm/micrograph/specimen.hpp>
+#include <mpm/micrograph/totals.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,128 +13,167 @@ namespace mpm::micrograph {
 
 namespace {
 
-using Size = std::array<double, 2>;
-
-// Tags that make a pixel larger than this (m) are a screen's or printer's, not a microscope's:
-// 96 dots per inch are 265 um, and cell walls are 2 to 10 um thick.
-constexpr double largest_tagged_pixel = 20e-6;
-
-/// Width and height in m of the image as stored: from the scene, else from the file's resolution
-/// tags.
-Size whole_size(const scene::Micrograph& micrograph, const GrayImage& image)
+/// The whole specimen, then the windows of the scene.
+std::vector<scene::Window> windows_of(const scene::Scene& scene)
 {
-  if (micrograph.image_size && micrograph.pixel_size)
-    throw InputError(
-        "specimen.image_size and specimen.pixel_size are both given. Give one of them.");
-  const std::string remedy = "Give specimen.image_size or specimen.pixel_size.";
-  Size size{};
-  if (micrograph.image_size) {
-    size = *micrograph.image_size;
-  } else {
-    const auto pixel = micrograph.pixel_size ? micrograph.pixel_size : image.pixel_size;
-    if (!pixel)
-      throw InputError(fmt::format("{}: the size of the image is unknown. {}",
-                                   micrograph.file.string(), remedy));
-    if (!micrograph.pixel_size && std::ranges::max(*pixel) > largest_tagged_pixel)
+  std::vector<scene::Window> windows{scene::Window{}};
+  windows.insert(windows.end(), scene.specimen.windows.begin(), scene.specimen.windows.end());
+  return windows;
+}
+
+std::string text_of(const scene::Window& window, int dimensions)
+{
+  std::string text =
+      fmt::format("x [{}, {}], y [{}, {}]", window.x[0], window.x[1], window.y[0], window.y[1]);
+  if (dimensions == 3) text += fmt::format(", z [{}, {}]", window.z[0], window.z[1]);
+  return text;
+}
+
+/// `material_of_label`: index into scene.materials.
+std::vector<RelativeDensity> densities_of(const scene::Scene& scene,
+                                          const std::vector<WindowCount>& counts,
+                                          const std::vector<std::int8_t>& material_of_label)
+{
+  const std::vector<scene::Window> windows = windows_of(scene);
+  std::vector<RelativeDensity> densities;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const WindowCount& count = counts[w];
+    if (count.locations == 0)
       throw InputError(
-          fmt::format("{}: its resolution tags make a pixel {:.4g} um wide, which is a "
-                      "screen's or printer's, not a microscope's. {}",
-                      micrograph.file.string(), (*pixel)[0] * 1e6, remedy));
-    size = {(*pixel)[0] * image.width, (*pixel)[1] * image.height};
+          fmt::format("specimen.windows[{}] '{}' is {} and contains no location. Give growing "
+                      "fractions between 0 and 1.",
+                      w - 1, windows[w].name, text_of(windows[w], scene.dimensions)));
+    double mass = 0;
+    for (std::size_t label = 0; label < count.filled.size(); ++label)
+      if (count.filled[label] > 0)
+        mass +=
+            count.filled[label] * scene.materials[std::size_t(material_of_label[label])].density;
+    const double filled = std::accumulate(count.filled.begin(), count.filled.end(), 0.0);
+    densities.push_back({windows[w].name, filled / count.locations, mass / count.locations});
   }
-  if (!(size[0] > 0 && size[1] > 0))
-    throw InputError(fmt::format("{}: the image is {} x {} m (must be above 0). {}",
-                                 micrograph.file.string(), size[0], size[1], remedy));
-  return size;
-}
-
-struct SizedImage {
-  GrayImage image;
-  Size size;  // m
-};
-
-/// The part of the micrograph that becomes the specimen, upright.
-SizedImage specimen_image(const scene::Micrograph& micrograph)
-{
-  GrayImage image = read_image(micrograph.file);
-  Size size = whole_size(micrograph, image);
-  if (micrograph.crop) {
-    const double whole_width = image.width, whole_height = image.height;
-    image = cropped(image, *micrograph.crop);
-    size = {size[0] * (image.width / whole_width), size[1] * (image.height / whole_height)};
-  }
-  image = turned(image, micrograph.rotate);
-  if (micrograph.rotate % 180 != 0) std::swap(size[0], size[1]);
-  if (micrograph.flip_horizontal) image = mirrored(image);
-  if (micrograph.flip_vertical) image = upended(image);
-  return {std::move(image), size};
-}
-
-/// Removes what the scene wants removed; returns the number of locations.
-std::int64_t clean(Lattice& lattice, const scene::Micrograph& micrograph)
-{
-  std::int64_t removed = 0;
-  if (micrograph.remove_specks > 1) removed += remove_specks(lattice, micrograph.remove_specks);
-  if (std::ranges::all_of(lattice.material, [](auto m) { return m == Lattice::empty; }))
-    throw InputError(
-        fmt::format("no cell wall left: every piece has fewer than specimen.remove_specks = {} "
-                    "locations. Lower "
-                    "it.",
-                    micrograph.remove_specks));
-  if (micrograph.remove_unconnected) removed += keep_largest_piece(lattice);
-  return removed;
-}
-
-SpecimenModel model_of(const scene::Scene& scene)
-{
-  const scene::Specimen& specimen = scene.specimen;
-  if (specimen.micrograph && !specimen.shapes.empty())
-    throw InputError("specimen.micrograph and specimen.shapes are both given. Give one of them.");
-  if (!specimen.micrograph && specimen.shapes.empty())
-    throw InputError("specimen is empty. Give specimen.micrograph, or specimen.size and .shapes.");
-
-  SpecimenModel model{};
-  model.particles_per_cell = scene.grid.particles_per_cell;
-  const auto lay_lattice = [&](const Size& size) {
-    model.size = size;
-    model.cells = cell_counts(scene.grid, size);
-    model.lattice = empty_lattice(model.cells, model.particles_per_cell);
-  };
-  if (specimen.micrograph) {
-    const auto [image, size] = specimen_image(*specimen.micrograph);
-    lay_lattice(size);
-    model.threshold = fill_with_image(model.lattice, scene, image);
-    model.removed = clean(model.lattice, *specimen.micrograph);
-  } else {
-    for (std::size_t d = 0; d < 2; ++d)
-      if (!(specimen.size[d] > 0))
-        throw InputError(
-            fmt::format("specimen.size[{}] is {} m (must be above 0).", d, specimen.size[d]));
-    lay_lattice(specimen.size);
-    fill_with_shapes(model.lattice, scene);
-    if (model.particles() == 0)
-      throw InputError(
-          "no location is filled: specimen.shapes cut out all they fill. Change them.");
-  }
-  model.densities = densities(model.lattice, scene);
-  return model;
+  return densities;
 }
 
 }  // namespace
 
-std::int64_t SpecimenModel::particles() const
+template <int Dim>
+Specimen<Dim>::Specimen(const scene::Scene& scene, std::optional<Picture> picture,
+                        const Share& share)
+    : particles_per_cell_(scene.grid.particles_per_cell)
 {
-  return std::ranges::count_if(lattice.material, [](auto m) { return m != Lattice::empty; });
-}
-
-SpecimenModel build_specimen(const scene::Scene& scene)
-{
+  const scene::Specimen& specimen = scene.specimen;
   try {
-    return model_of(scene);
+    if (specimen.micrograph && !specimen.shapes.empty())
+      throw InputError("specimen.micrograph and specimen.shapes are both given. Give one of them.");
+    if (picture)
+      settle_picture(scene, *std::move(picture), share);
+    else
+      settle_shapes(scene, share);
   } catch (const InputError& error) {
-    if (scene.file.empty()) throw;
-    throw InputError(scene.file.string() + ": " + error.what());
+    throw_in_scene(scene, error.what());
   }
 }
+
+template <int Dim>
+void Specimen<Dim>::settle_grid(const scene::Scene& scene, const Share& share)
+{
+  cells_ = cell_counts<Dim>(scene.grid, size_);
+  count_ = location_counts<Dim>(cells_, particles_per_cell_, share.parts);
+}
+
+template <int Dim>
+void Specimen<Dim>::settle_picture(const scene::Scene& scene, Picture picture, const Share& share)
+{
+  size_[0] = picture.size[0];
+  size_[1] = picture.size[1];
+  if constexpr (Dim == 3) size_[2] = scene.specimen.micrograph->depth.value();
+  settle_grid(scene, share);
+
+  Section section(scene, std::move(picture.image), count_.template head<2>(), share);
+  picture_ = section.figures();
+  if constexpr (Dim == 3) picture_->removed *= count_[2];
+  source_ = std::make_unique<PictureSource<Dim>>(std::move(section));
+  std::vector<std::int8_t> materials(scene.materials.size());
+  std::iota(materials.begin(), materials.end(), std::int8_t(0));
+  const std::vector<WindowCount> counts = count_windows<Dim>(
+      count_, windows_of(scene), materials.size(),
+      [&](Lattice<Dim>& lattice) { source_->fill(lattice); }, share);
+  for (const double filled : counts[0].filled)
+    particles_of_material_.push_back(GlobalIndex(filled));
+  densities_ = densities_of(scene, counts, materials);
+}
+
+template <int Dim>
+void Specimen<Dim>::settle_shapes(const scene::Scene& scene, const Share& share)
+{
+  const scene::Specimen& specimen = scene.specimen;
+  if (specimen.shapes.empty())
+    throw InputError("specimen is empty. Give specimen.micrograph, or specimen.size and .shapes.");
+  for (int d = 0; d < Dim; ++d) {
+    size_[d] = specimen.size[std::size_t(d)];
+    if (!(size_[d] > 0))
+      throw InputError(fmt::format("specimen.size[{}] is {} m (must be above 0).", d, size_[d]));
+  }
+  settle_grid(scene, share);
+
+  auto source = std::make_unique<ShapeSource<Dim>>(scene, size_);
+  std::vector<double> found(specimen.shapes.size());
+  const std::vector<WindowCount> counts = count_windows<Dim>(
+      count_, windows_of(scene), specimen.shapes.size(),
+      [&](Lattice<Dim>& lattice) { source->fill(lattice, found); }, share);
+  share.sum(found);
+  check_found(found);
+
+  std::vector<std::int8_t> material_of_shape;
+  particles_of_material_.assign(scene.materials.size(), 0);
+  for (std::size_t shape = 0; shape < specimen.shapes.size(); ++shape) {
+    const std::int8_t material = source->material(shape);
+    material_of_shape.push_back(material);
+    const double filled = counts[0].filled[shape];
+    if (filled == 0) continue;  // void, or all of it drawn over
+    particles_of_material_[std::size_t(material)] += GlobalIndex(filled);
+    if (scene.materials[std::size_t(material)].law == scene::Law::rigid) continue;
+    for (const double component : specimen.shapes[shape].velocity)
+      largest_initial_speed_ = std::max(largest_initial_speed_, std::abs(component));
+  }
+  if (particles() == 0)
+    throw InputError("no location is filled: specimen.shapes cut out all they fill. Change them.");
+  densities_ = densities_of(scene, counts, material_of_shape);
+  source_ = std::move(source);
+}
+
+template <int Dim>
+void Specimen<Dim>::check_found(const std::vector<double>& found) const
+{
+  const auto lost = std::ranges::find(found, 0.0);
+  if (lost == found.end()) return;
+  std::string size = fmt::format("{}", size_[0]), count = fmt::format("{}", count_[0]);
+  for (int d = 1; d < Dim; ++d) {
+    size += fmt::format(" x {}", size_[d]);
+    count += fmt::format(" x {}", count_[d]);
+  }
+  throw InputError(fmt::format(
+      "specimen.shapes[{}] contains no particle location of the specimen ({} m, lattice {}). Move "
+      "or enlarge it, or refine the grid.",
+      lost - found.begin(), size, count));
+}
+
+template <int Dim>
+GlobalIndex Specimen<Dim>::particles() const
+{
+  return std::accumulate(particles_of_material_.begin(), particles_of_material_.end(),
+                         GlobalIndex(0));
+}
+
+template <int Dim>
+Lattice<Dim> Specimen<Dim>::lattice(const IndexBox<Dim>& part) const
+{
+  Lattice<Dim> lattice{count_, part, {}, {}};
+  source_->fill(lattice);
+  return lattice;
+}
+
+template class Specimen<2>;
+template class Specimen<3>;
 
 }  // namespace mpm::micrograph

@@ -2,6 +2,8 @@
 #include <mpm/micrograph/threshold.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -44,36 +46,60 @@ double otsu_threshold(std::span<const double> gray)
   return double((first + last) / 2);
 }
 
-double threshold_for_density(std::span<const double> means, double target, scene::Wall wall)
+double nth_smallest(std::span<const double> values, std::int64_t n, const Share& share)
+{
+  // Numbers that are not negative are ordered like their bits: from the highest byte on, count the
+  // values that begin with the bytes found so far by their next byte.
+  std::uint64_t found = 0;
+  for (int shift = 56; shift >= 0; shift -= 8) {
+    std::array<double, 256> count{};
+    for (const double value : values) {
+      const auto bits = std::bit_cast<std::uint64_t>(value + 0.0);  // no minus before a zero
+      const std::uint64_t differing = (bits ^ found) >> shift;
+      if (differing < 256) count[(bits >> shift) & 255] += 1;
+    }
+    share.sum(count);
+    std::size_t byte = 0;
+    while (byte < 255 && double(n) >= count[byte]) n -= std::int64_t(count[byte++]);
+    found |= std::uint64_t(byte) << shift;
+  }
+  return std::bit_cast<double>(found);
+}
+
+double level_with_share_below(std::span<const double> values, double share_below,
+                              const Share& share)
+{
+  double total = double(values.size());
+  share.sum(std::span(&total, 1));
+  const double wanted_below = total * share_below;
+  const double level =
+      nth_smallest(values, std::min(std::int64_t(wanted_below), std::int64_t(total) - 1), share);
+
+  // A threshold can pass below or above all the values that equal `level`.
+  std::array<double, 2> count{};  // below, and up to it
+  for (const double value : values) {
+    count[0] += value < level;
+    count[1] += value <= level;
+  }
+  share.sum(count);
+  const bool pass_below = wanted_below - count[0] <= count[1] - wanted_below;
+  if (pass_below && count[0] == 0) return level;
+  if (!pass_below && count[1] == total)
+    return std::nextafter(level, std::numeric_limits<double>::infinity());
+  const double lower = pass_below ? nth_smallest(values, std::int64_t(count[0]) - 1, share) : level;
+  const double upper = pass_below ? level : nth_smallest(values, std::int64_t(count[1]), share);
+  const double middle = lower + 0.5 * (upper - lower);
+  return middle > lower ? middle : upper;  // neighbouring numbers have no middle
+}
+
+double threshold_for_density(std::span<const double> means, double target, scene::Wall wall,
+                             const Share& share)
 {
   if (!(target > 0 && target < 1))
     throw InputError(fmt::format(
         "specimen.target_relative_density is {} (must lie between 0 and 1, both excluded).",
         target));
-  const double wanted_below =
-      double(means.size()) * (wall == scene::Wall::bright ? 1 - target : target);
-  std::vector<double> sorted(means.begin(), means.end());
-  const auto pivot =
-      sorted.begin() + std::min(std::ptrdiff_t(wanted_below), std::ptrdiff_t(sorted.size()) - 1);
-  std::nth_element(sorted.begin(), pivot, sorted.end());
-  const double level = *pivot;
-
-  // A threshold can pass below or above all the means that equal `level`.
-  double next_below = -std::numeric_limits<double>::infinity(), next_above = -next_below;
-  double count_below = 0, count_up_to = 0;
-  for (const double mean : sorted) {
-    count_below += mean < level;
-    count_up_to += mean <= level;
-    if (mean < level) next_below = std::max(next_below, mean);
-    if (mean > level) next_above = std::min(next_above, mean);
-  }
-  const bool pass_below = wanted_below - count_below <= count_up_to - wanted_below;
-  const double lower = pass_below ? next_below : level;
-  const double upper = pass_below ? level : next_above;
-  if (std::isinf(lower)) return upper;
-  if (std::isinf(upper)) return std::nextafter(lower, upper);
-  const double middle = lower + 0.5 * (upper - lower);
-  return middle > lower ? middle : upper;  // neighbouring numbers have no middle
+  return level_with_share_below(means, wall == scene::Wall::bright ? 1 - target : target, share);
 }
 
 }  // namespace mpm::micrograph

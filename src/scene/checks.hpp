@@ -34,6 +34,7 @@ struct Checked {
 
 void check_materials(const Checked& checked);
 void check_specimen(const Checked& checked);
+void check_sides(const Checked& checked);
 void check_run(const Checked& checked);
 
 }  // namespace mpm::scene

@@ -1,20 +1,11 @@
 #include <mpm/core/nearest_name.hpp>
 
-#include <cmath>
-
 #include "checks.hpp"
 #include <fmt/format.h>
 
 namespace mpm::scene {
 
 namespace {
-
-using Corner = std::array<double, 2>;
-
-bool is_below(const Corner& lower, const Corner& upper)
-{
-  return lower[0] < upper[0] && lower[1] < upper[1];
-}
 
 /// `others`: names that stand for no material but may be used.
 void check_name(const Checked& checked, const std::string& path, const std::string& name,
@@ -65,31 +56,18 @@ void check_micrograph(const Checked& checked, const Micrograph& micrograph)
   check_bands(checked, micrograph.bands);
 }
 
-/// Each overload says what is impossible about one kind of shape.
-struct GeometryCheck {
-  const Checked& checked;
-  std::string path;
-
-  void corners(const std::string& key, const Corner& lower, const Corner& upper) const
-  {
-    if (checked.sound(path + key) && !is_below(lower, upper))
-      checked.refuse(path + key + ".upper", "must be right of and above lower");
-  }
-  void operator()(const Box& box) const { corners(".box", box.lower, box.upper); }
-  void operator()(const Disc&) const {}
-  void operator()(const Polygon& polygon) const
-  {
-    if (polygon.vertices.size() < 3)
-      checked.refuse(path + ".polygon.vertices", "a polygon has at least 3 vertices");
-  }
-  void operator()(const Honeycomb& comb) const
-  {
-    corners(".honeycomb", comb.lower, comb.upper);
-    const std::string thickness = path + ".honeycomb.wall_thickness";
-    if (comb.wall_thickness >= std::sqrt(3.0) * comb.cell_side && checked.sound(path))
-      checked.refuse(thickness, "must be below sqrt(3) cell_side, or no lumen is left");
-  }
-};
+/// What is impossible about a shape on its own; nothing is said about a key reported already.
+void check_geometry(const Checked& checked, const std::string& path, const Geometry& geometry)
+{
+  std::visit(
+      [&]<class Kind>(const Kind& kind) {
+        const std::string map = path + "." + std::string(Kind::keyword);
+        if (!checked.sound(map)) return;
+        if (const auto defect = kind.defect(checked.scene.dimensions))
+          checked.refuse(map + "." + defect->key, defect->reason);
+      },
+      geometry);
+}
 
 void check_shapes(const Checked& checked)
 {
@@ -101,21 +79,23 @@ void check_shapes(const Checked& checked)
     return;
   }
   if (!checked.given("specimen.size"))
-    checked.miss("specimen.size", "shapes lie in a rectangle of this size",
+    checked.miss("specimen.size", "shapes lie in a rectangle of this size, or in a cuboid",
                  "Add e.g. size: [1 mm, 1 mm]");
   if (checked.given("specimen.shapes") && specimen.shapes.empty())
     checked.refuse("specimen.shapes", "a specimen needs at least one");
 
+  const std::vector<std::string> keywords = shape_keywords(checked.scene.dimensions);
   for (std::size_t i = 0; i < specimen.shapes.size(); ++i) {
     const std::string path = fmt::format("specimen.shapes[{}]", i);
     std::vector<std::string> kinds;
-    for (const char* kind : {"box", "disc", "polygon", "honeycomb"})
-      if (checked.given(path + "." + kind)) kinds.emplace_back(kind);
+    for (const std::string& kind : keywords)
+      if (checked.given(path + "." + kind)) kinds.push_back(kind);
     if (kinds.size() == 1)
-      std::visit(GeometryCheck{checked, path}, specimen.shapes[i].geometry);
-    else if (kinds.empty())
-      checked.miss(path + ".box", "what the shape is", "Add box, disc, polygon or honeycomb");
-    else
+      check_geometry(checked, path, specimen.shapes[i].geometry);
+    else if (kinds.empty() && checked.sound(path))
+      checked.miss(path + "." + keywords.front(), "what the shape is",
+                   "Add " + alternatives(keywords));
+    else if (!kinds.empty())
       checked.both_given(path + "." + kinds[1], path + "." + kinds[0]);
     check_name(checked, path + ".material", specimen.shapes[i].material, {"void"});
   }
@@ -126,10 +106,10 @@ void check_windows(const Checked& checked, const std::vector<Window>& windows)
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const std::string path = fmt::format("specimen.windows[{}]", i);
     if (!checked.sound(path)) continue;
-    if (windows[i].x[0] >= windows[i].x[1])
-      checked.refuse(path + ".x", "the first must be below the second");
-    if (windows[i].y[0] >= windows[i].y[1])
-      checked.refuse(path + ".y", "the first must be below the second");
+    const std::array ranges{windows[i].x, windows[i].y, windows[i].z};
+    for (std::size_t d = 0; d < ranges.size(); ++d)
+      if (ranges[d][0] >= ranges[d][1])
+        checked.refuse(fmt::format("{}.{}", path, "xyz"[d]), "the first must be below the second");
     for (std::size_t j = 0; j < i; ++j) {
       if (windows[i].name == windows[j].name)
         checked.refuse(path + ".name", fmt::format("windows[{}] has this name already", j),

@@ -26,6 +26,9 @@ loading:
 
 - A value with a dimension carries its unit: `10.6 GPa`, `0.832 mm`, `1.5 g/cm^3`, `10 m/s`, `30 deg`.
 - A fraction is plain or in percent: `0.6` or `60 %`.
+- A scene lies in the plane, or in space if `specimen.size` has three components or a picture a
+  `specimen.depth`. Coordinates, sizes and sides then come in threes and sixes. Sides are left and
+  right (x), bottom and top (y), back and front (z).
 - A key that is unknown, given twice or of no effect is an error, with file, line and column.
 - `--set path.to.key=value` changes a key for one run: `--set loading.speed='5 m/s'`,
   `--set materials[0].density='1400 kg/m^3'`.
@@ -37,7 +40,7 @@ std::string default_of(const Parameter<Owner>& row)
 {
   if (row.need == Need::required) return "**required**";
   if (!row.default_text.empty()) return row.default_text;
-  const std::string text = one_line(row.write(Owner{}));
+  const std::string text = one_line(row.write(Owner{}, 2));
   return text == "\"\"" ? "none" : "`" + text + "`";
 }
 
@@ -46,8 +49,8 @@ void write_section(std::ostream& out, std::string_view title)
 {
   out << "\n## " << title << "\n\n| key | value | default | meaning |\n|---|---|---|---|\n";
   for (const Parameter<Owner>& row : parameters<Owner>()) {
-    const std::string only =
-        row.condition.text.empty() ? "" : fmt::format(" ({} only)", row.condition.text);
+    const std::string belongs_to = row.only();
+    const std::string only = belongs_to.empty() ? "" : fmt::format(" ({} only)", belongs_to);
     out << fmt::format("| `{}` | {} | {} | {}{} |\n", row.key, row.type, default_of(row), row.help,
                        only);
   }
@@ -64,8 +67,9 @@ void write_sections(std::ostream& out)
 void write_input_reference(std::ostream& out)
 {
   out << introduction;
-  write_sections<SceneKeys, Material, Specimen, GrayBand, Window, Shape, Box, Disc, Polygon,
-                 Honeycomb, Grid, Numerics, Loading, LoadCell, FreeMotion, OutputKeys>(out);
+  write_sections<SceneKeys, Material, Specimen, GrayBand, Window, Shape>(out);
+  for_each_kind([&]<class Kind>(std::type_identity<Kind>) { write_sections<Kind>(out); });
+  write_sections<Grid, Numerics, Loading, LoadCell, FreeMotion, OutputKeys>(out);
   write_section<SnapshotKeys>(out, snapshots_section);
 }
 

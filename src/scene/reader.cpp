@@ -66,6 +66,14 @@ Output filled_output(const OutputKeys& keys, const std::variant<Loading, FreeMot
   return output;
 }
 
+/// Known before any key is read: it decides how long lists have to be.
+int dimensions_of(const Node& root)
+{
+  const Node* size = find(root, "specimen.size");
+  const bool in_space = size != nullptr && size->items.size() == 3;
+  return in_space || find(root, "specimen.depth") != nullptr ? 3 : 2;
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides)
@@ -75,8 +83,9 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   apply(root, overrides);
 
   SceneKeys keys;
+  keys.dimensions = dimensions_of(root);
   Problems problems;
-  read_map(Given{root, "", problems}, keys);
+  read_map(Given{root, "", problems}, keys, keys.dimensions);
   if (auto& micrograph = keys.specimen.micrograph) {
     const auto folder = std::filesystem::absolute(file).parent_path();
     micrograph->file = (folder / micrograph->file).lexically_normal();
@@ -84,6 +93,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   const Checked checked{keys, root, problems};
   check_materials(checked);
   check_specimen(checked);
+  check_sides(checked);
   check_run(checked);
   problems.throw_if_any();
 
@@ -100,7 +110,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 void write_effective_scene(std::ostream& out, const Scene& scene)
 {
   out << "# " << scene.file.filename().string() << " as it was run, every default filled in.\n";
-  print_document(out, write_map(keys_of(scene)));
+  print_document(out, write_map(keys_of(scene), scene.dimensions));
 }
 
 }  // namespace mpm::scene

@@ -10,19 +10,20 @@ const std::vector<Parameter<Grid>>& parameters<Grid>()
   static const std::vector<Parameter<G>> rows{
       member<G>("cells", &G::cells,
                 {.bound = at_least(2), .default_text = "150 along x, nearly square ones along y"},
-                "cells over the specimen along x and y"),
+                "cells over the specimen along each axis"),
       member<G>(
           "spacing", &G::spacing,
           {.quantity = length, .bound = above(0), .spread = true, .default_text = "from cells"},
           "cell size, rounded so that whole cells fit"),
       member<G>("particles_per_cell", &G::particles_per_cell, {.bound = from_to(1, 8)},
                 "material points per cell and direction"),
-      member<G>("margin", &G::margin,
-                {.quantity = length,
-                 .bound = at_least(0),
-                 .spread = true,
-                 .default_text = "0; 25 % of the width at free lateral sides"},
-                "empty space left, right, below and above the specimen"),
+      member<G>(
+          "margin", &G::margin,
+          {.quantity = length,
+           .bound = at_least(0),
+           .spread = true,
+           .default_text = "0; 25 % of the width at free lateral sides"},
+          "empty space left, right, below and above the specimen; in space also behind and before"),
   };
   return rows;
 }
@@ -32,9 +33,10 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
 {
   using N = Numerics;
   static const std::vector<Parameter<N>> rows{
-      member<N>("plane", &N::plane, {}, "plane strain or plane stress"),
+      member<N>("plane", &N::plane, {}, "plane strain or plane stress").in_plane(),
       member<N>("thickness", &N::thickness, {.quantity = Quantity::length, .bound = above(0)},
-                "out of the plane"),
+                "out of the plane")
+          .in_plane(),
       member<N>("shape_function", &N::shape_function, {},
                 "hat functions, GIMP (uniform particle domains) or quadratic B-splines"),
       member<N>("scheme", &N::scheme, {}, "what particles take from the grid"),
@@ -47,7 +49,7 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       member<N>("decomposition", &N::decomposition, {},
                 "straight cuts, blocks of cells mapped by METIS, or what is better balanced"),
       member<N>("ranks", &N::ranks, {.bound = at_least(0), .default_text = "chosen"},
-                "process grid of cuts along x and y; 0: chosen"),
+                "process grid of cuts along each axis; 0: chosen"),
       member<N>("repartition_interval", &N::repartition_interval, {.bound = at_least(0)},
                 "move the borders between ranks every so many steps (for tests); 0: when it pays"),
   };
@@ -60,7 +62,8 @@ const std::vector<Parameter<Loading>>& parameters<Loading>()
   using enum Quantity;
   using L = Loading;
   static const std::vector<Parameter<L>> rows{
-      member<L>("piston", &L::piston, {}, "side from which the piston comes"),
+      member<L>("piston", &L::piston, {},
+                "side from which the piston comes; back and front in space"),
       member<L>("speed", &L::speed,
                 {.quantity = velocity, .bound = above(0), .need = Need::required}, "of the piston"),
       member<L>("strain", &L::strain, {.quantity = fraction, .bound = between(0, 0.99)},
@@ -71,8 +74,10 @@ const std::vector<Parameter<Loading>>& parameters<Loading>()
                  .default_text = "8 times the fastest wave's way through"},
                 "smooth rise of the piston's speed; 0: at once"),
       member<L>("grip", &L::grip, {}, "of the piston and of the fixed edge opposite"),
-      member<L>("lateral", &L::lateral, {.spread = true},
-                "the sides along the travel: lower (or left), upper (or right)"),
+      member<L>(
+          "lateral", &L::lateral, {.spread = true},
+          "the sides along the travel: lower (or left), upper (or right); in space of the first, "
+          "then of the second of the two other axes"),
       member<L>("load_cell", &L::load_cell, {.default_text = "none"},
                 "elastic layer at the fixed edge that measures the force"),
   };
@@ -99,7 +104,8 @@ const std::vector<Parameter<FreeMotion>>& parameters<FreeMotion>()
       member<F>("end_time", &F::end_time,
                 {.quantity = Quantity::time, .bound = above(0), .need = Need::required},
                 "end of the run"),
-      member<F>("sides", &F::sides, {.spread = true}, "of the grid: left, right, bottom, top"),
+      member<F>("sides", &F::sides, {.spread = true},
+                "of the grid: left, right, bottom, top; in space also back, front"),
   };
   return rows;
 }
@@ -137,15 +143,15 @@ const std::vector<Parameter<SnapshotKeys>>& parameters<SnapshotKeys>()
   return rows;
 }
 
-bool Value<SnapshotKeys>::read(const Given& given, const Rule&, SnapshotKeys& keys)
+bool Value<SnapshotKeys>::read(const Given& given, const Rule& rule, SnapshotKeys& keys)
 {
-  if (given.node.kind != Node::Kind::scalar) return read_map(given, keys);
+  if (given.node.kind != Node::Kind::scalar) return read_map(given, keys, rule.dimensions);
   return Value<std::optional<int>>::read(given, {.bound = from_to(0, 100000)}, keys.count);
 }
 
-Node Value<SnapshotKeys>::write(const SnapshotKeys& keys, const Rule&)
+Node Value<SnapshotKeys>::write(const SnapshotKeys& keys, const Rule& rule)
 {
-  return write_map(keys);
+  return write_map(keys, rule.dimensions);
 }
 
 std::string Value<SnapshotKeys>::describe(const Rule&)

@@ -137,6 +137,9 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
                     .spread = true,
                     .default_text = "from image_size or the TIFF's resolution"},
                    "width and height of a pixel"),
+      image_member("depth", &I::depth,
+                   {.quantity = length, .bound = above(0), .default_text = "none: in the plane"},
+                   "makes a scene in space: the picture drawn out along z"),
       image_member("crop", &I::crop, {.bound = at_least(0), .default_text = "whole picture"},
                    "part to use, in pixels of the file: x, y (from the top), width, height"),
       property<Rotation, S>(
@@ -171,12 +174,19 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
           {.quantity = fraction, .bound = relative_density, .default_text = "none"},
           "choose the threshold that gives this relative density")
           .when(without_bands),
-      image_member("remove_specks", &I::remove_specks, {.bound = at_least(0)},
-                   "pieces of wall with fewer particle locations than this become void"),
+      image_member("sampling", &I::sampling, {},
+                   "match: the particles have the picture's density (with bands that of every "
+                   "material) at every resolution; threshold: a location is wall if its mean gray "
+                   "reaches the threshold"),
+      image_member(
+          "remove_specks", &I::remove_specks, {.bound = at_least(0)},
+          "pieces of wall with fewer particle locations (in space of a layer across z) than "
+          "this become void"),
       image_member("remove_unconnected", &I::remove_unconnected, {},
                    "keep only what is connected to the largest piece"),
       member<S>("size", &S::size, {.quantity = length, .bound = above(0), .default_text = "none"},
-                "width and height of a specimen made of shapes")
+                "width and height of a specimen made of shapes; a third one, the depth, makes a "
+                "scene in space")
           .when(from_shapes),
       member<S>("shapes", &S::shapes, {.default_text = "none"},
                 "drawn in order; later ones override earlier ones")
@@ -210,6 +220,7 @@ const std::vector<Parameter<Window>>& parameters<Window>()
       member<W>("name", &W::name, {.need = Need::required}, "shown with the density"),
       member<W>("x", &W::x, part, "from and to, as fractions of the width"),
       member<W>("y", &W::y, part, "from (below) and to, as fractions of the height"),
+      member<W>("z", &W::z, part, "from (the back) and to, as fractions of the depth").in_space(),
   };
   return rows;
 }

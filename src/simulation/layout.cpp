@@ -9,7 +9,6 @@
 namespace mpm {
 
 using micrograph::Lattice;
-using micrograph::SpecimenModel;
 
 namespace {
 
@@ -23,9 +22,10 @@ constexpr double free_margin = 0.25;
 constexpr double crossings_of_start = 8;
 
 /// Margins left, right, bottom, top in m, with room for free edges where none is given.
-std::array<double, 4> margins(const scene::Scene& scene, const std::array<double, 2>& size)
+std::array<double, 4> margins(const scene::Scene& scene, const Vec<2>& size)
 {
-  std::array<double, 4> margin = scene.grid.margin;
+  std::array<double, 4> margin;
+  std::copy_n(scene.grid.margin.begin(), margin.size(), margin.begin());
   if (const auto* loading = std::get_if<scene::Loading>(&scene.motion)) {
     const int lateral = 1 - axis_of(loading->piston);
     for (int k = 0; k < 2; ++k)
@@ -35,18 +35,19 @@ std::array<double, 4> margins(const scene::Scene& scene, const std::array<double
   return margin;
 }
 
-double fastest(const std::array<double, 2>& v)
+double fastest(const scene::PerAxis<double>& v)
 {
   return std::max(std::abs(v[0]), std::abs(v[1]));
 }
 
 }  // namespace
 
-std::array<double, 2> initial_velocity(const scene::Scene& scene, const Lattice& lattice,
+std::array<double, 2> initial_velocity(const scene::Scene& scene, const Lattice<2>& lattice,
                                        std::size_t location)
 {
   if (lattice.shape.empty() || lattice.shape[location] < 0) return {0, 0};
-  return scene.specimen.shapes[lattice.shape[location]].velocity;
+  const auto& velocity = scene.specimen.shapes[lattice.shape[location]].velocity;
+  return {velocity[0], velocity[1]};
 }
 
 scene::Material load_cell_material(const scene::Scene& scene, double ratio)
@@ -62,21 +63,21 @@ scene::Material load_cell_material(const scene::Scene& scene, double ratio)
   return material;
 }
 
-Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
+Layout make_layout(const scene::Scene& scene, const micrograph::Specimen<2>& specimen)
 {
   Layout layout;
-  const int per_cell = specimen.particles_per_cell;
+  const int per_cell = specimen.particles_per_cell();
   std::array<LocalIndex, 2> before{ghost_cells, ghost_cells}, after{ghost_cells, ghost_cells};
-  const auto margin = margins(scene, specimen.size);
+  const auto margin = margins(scene, specimen.size());
   const auto* loading = std::get_if<scene::Loading>(&scene.motion);
   for (int d = 0; d < 2; ++d) {
-    const double h = specimen.size[d] / specimen.cells[d];
+    const double h = specimen.size()[d] / specimen.cells()[d];
     layout.geometry.spacing[d] = h;
     layout.location_size[d] = h / per_cell;
     before[d] += LocalIndex(std::ceil(margin[2 * d] / h - 1e-9));
     after[d] += LocalIndex(std::ceil(margin[2 * d + 1] / h - 1e-9));
   }
-  const int nx = specimen.lattice.nx, ny = specimen.lattice.ny;
+  const LocalIndex nx = specimen.count()[0], ny = specimen.count()[1];
   if (loading && loading->load_cell) {
     const int axis = axis_of(loading->piston);
     const LocalIndex cells = loading->load_cell->cells;
@@ -97,33 +98,22 @@ Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
     layout.padding[d] = before[d];
     layout.specimen_lower[d] = 0;
     layout.geometry.origin[d] = -before[d] * layout.geometry.spacing[d];
-    layout.geometry.nodes[d] = before[d] + specimen.cells[d] + after[d] + 1;
+    layout.geometry.nodes[d] = before[d] + specimen.cells()[d] + after[d] + 1;
   }
 
   layout.particle_volume =
       layout.location_size[0] * layout.location_size[1] * scene.numerics.thickness;
   layout.largest_particle_mass = 0;
   layout.wave_speed = 0;
-  layout.largest_speed = loading ? loading->speed : 0;
-  std::vector<char> used(scene.materials.size(), 0);
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i) {
-      const std::int8_t material = specimen.lattice(i, j);
-      if (material == Lattice::empty) continue;
-      used[material] = 1;
-      if (scene.materials[material].law == scene::Law::rigid) continue;
-      layout.largest_speed =
-          std::max(layout.largest_speed,
-                   fastest(initial_velocity(scene, specimen.lattice, std::size_t(j) * nx + i)));
-    }
+  layout.largest_speed = std::max(loading ? loading->speed : 0, specimen.largest_initial_speed());
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
     const scene::Material& material = scene.materials[k];
     if (material.law == scene::Law::rigid) {
-      if (used[k])
+      if (specimen.particles_of_material()[k] > 0)
         layout.largest_speed = std::max(layout.largest_speed, fastest(material.velocity));
       continue;
     }
-    if (!used[k]) continue;
+    if (specimen.particles_of_material()[k] == 0) continue;
     layout.largest_particle_mass =
         std::max(layout.largest_particle_mass, material.density * layout.particle_volume);
     layout.wave_speed =
@@ -139,7 +129,7 @@ Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
   layout.cfl = default_cfl(scene.numerics);
   if (loading) {
     const int axis = axis_of(loading->piston);
-    const double crossing = specimen.size[axis] / layout.wave_speed;
+    const double crossing = specimen.size()[axis] / layout.wave_speed;
     layout.piston = {loading->speed, loading->ramp_time.value_or(crossings_of_start * crossing)};
     layout.end_time = time_of_strain(scene, specimen, layout.piston, loading->strain);
   } else {
@@ -148,11 +138,11 @@ Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
   return layout;
 }
 
-double time_of_strain(const scene::Scene& scene, const SpecimenModel& specimen,
+double time_of_strain(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
                       const WallMotion& piston, double strain)
 {
   const int axis = axis_of(std::get<scene::Loading>(scene.motion).piston);
-  return strain > 0 ? piston.time_of(strain * specimen.size[axis]) : 0.0;
+  return strain > 0 ? piston.time_of(strain * specimen.size()[axis]) : 0.0;
 }
 
 }  // namespace mpm

@@ -102,7 +102,7 @@ PartitionRules<2> partition_rules(const scene::Scene& scene)
 }
 
 Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene,
-                                    const micrograph::SpecimenModel& specimen, const Layout& layout)
+                                    const micrograph::Specimen<2>& specimen, const Layout& layout)
 {
   // Each rank counts its share of the locations.
   const RowShare share{rank_of(comm), ranks_of(comm)};

@@ -13,7 +13,6 @@ namespace mpm {
 namespace {
 
 using micrograph::Lattice;
-using micrograph::SpecimenModel;
 
 ReactionBook book_of(const scene::Numerics& numerics)
 {
@@ -89,8 +88,8 @@ WallGrip grip_of(scene::Grip grip)
   return grip == scene::Grip::stick ? WallGrip::stick : WallGrip::slip;
 }
 
-void add_apparatus(const scene::Scene& scene, const SpecimenModel& specimen, const Layout& layout,
-                   Model& model)
+void add_apparatus(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
+                   const Layout& layout, Model& model)
 {
   const auto& loading = std::get<scene::Loading>(scene.motion);
   const ReactionBook book = book_of(scene.numerics);
@@ -106,24 +105,24 @@ void add_apparatus(const scene::Scene& scene, const SpecimenModel& specimen, con
   apparatus.axis = axis_of(loading.piston);
   const int axis = apparatus.axis, lateral = 1 - axis;
   const bool upper = upper_of(loading.piston);
-  apparatus.length = specimen.size[axis];
-  apparatus.area = specimen.size[lateral] * scene.numerics.thickness;
-  double edge = upper ? 0 : specimen.size[axis];
+  apparatus.length = specimen.size()[axis];
+  apparatus.area = specimen.size()[lateral] * scene.numerics.thickness;
+  double edge = upper ? 0 : specimen.size()[axis];
   if (loading.load_cell)
     edge += (upper ? -1 : 1) * loading.load_cell->cells * layout.geometry.spacing[axis];
   const WallMotion inwards{upper ? -layout.piston.speed : layout.piston.speed,
                            layout.piston.ramp_time};
   apparatus.piston =
-      wall(axis, upper, upper ? specimen.size[axis] : 0, inwards, grip_of(loading.grip));
+      wall(axis, upper, upper ? specimen.size()[axis] : 0, inwards, grip_of(loading.grip));
   apparatus.edge = wall(axis, !upper, edge, {}, grip_of(loading.grip));
   for (int k = 0; k < 2; ++k)
     if (loading.lateral[k] != scene::Lateral::free)
       apparatus.lateral[k] =
-          wall(lateral, k == 1, k == 1 ? specimen.size[lateral] : 0, {}, WallGrip::slip);
+          wall(lateral, k == 1, k == 1 ? specimen.size()[lateral] : 0, {}, WallGrip::slip);
   model.apparatus = apparatus;
 }
 
-void add_sides(const scene::Scene& scene, const SpecimenModel& specimen, Model& model)
+void add_sides(const scene::Scene& scene, const micrograph::Specimen<2>& specimen, Model& model)
 {
   const auto& motion = std::get<scene::FreeMotion>(scene.motion);
   for (int k = 0; k < 4; ++k) {
@@ -131,7 +130,7 @@ void add_sides(const scene::Scene& scene, const SpecimenModel& specimen, Model& 
     const int axis = k / 2;
     const bool upper = k % 2 == 1;
     model.slots.conditions.push_back(std::make_unique<RigidWall<2>>(
-        RigidWall<2>::Placement{axis, upper, upper ? specimen.size[axis] : 0.0}, WallMotion{},
+        RigidWall<2>::Placement{axis, upper, upper ? specimen.size()[axis] : 0.0}, WallMotion{},
         motion.sides[k] == scene::Lateral::rigid ? WallGrip::stick : WallGrip::slip,
         book_of(scene.numerics)));
   }
@@ -139,23 +138,23 @@ void add_sides(const scene::Scene& scene, const SpecimenModel& specimen, Model& 
 
 }  // namespace
 
-Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const Layout& layout,
-                 const Decomposition<2>& decomposition)
+Model make_model(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
+                 const Layout& layout, const Decomposition<2>& decomposition)
 {
   Model model;
-  model.transfer = make_transfer(scene.numerics, specimen.particles_per_cell);
-  const Lattice& lattice = specimen.lattice;
-  const int per_cell = specimen.particles_per_cell;
+  model.transfer = make_transfer(scene.numerics, specimen.particles_per_cell());
+  const int per_cell = specimen.particles_per_cell();
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
     const scene::Material& material = scene.materials[k];
-    if (std::ranges::find(lattice.material, std::int8_t(k)) == lattice.material.end()) continue;
+    if (specimen.particles_of_material()[k] == 0) continue;
     if (material.law == scene::Law::rigid) {
       std::vector<Vec<2>> points;
-      for (int j = 0; j < lattice.ny; ++j)
-        for (int i = 0; i < lattice.nx; ++i)
-          if (lattice(i, j) == std::int8_t(k))
-            points.push_back(
-                {(i + 0.5) * layout.location_size[0], (j + 0.5) * layout.location_size[1]});
+      const Lattice<2> lattice = specimen.lattice(specimen.whole());
+      for_each_index(lattice.part, [&](const IndexVec<2>& at) {
+        if (lattice(at) == std::int8_t(k))
+          points.push_back(
+              {(at[0] + 0.5) * layout.location_size[0], (at[1] + 0.5) * layout.location_size[1]});
+      });
       model.slots.conditions.push_back(std::make_unique<RigidBody<2>>(
           std::move(points), Vec<2>(0.5 * layout.location_size[0], 0.5 * layout.location_size[1]),
           std::array{WallMotion{material.velocity[0]}, WallMotion{material.velocity[1]}},
@@ -164,18 +163,17 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
     }
     Body<2>& body = model.bodies.emplace_back(empty_body(material, int(k), scene, *model.transfer));
     BodyFiller filler(body, layout, decomposition, per_cell);
-    const IndexBox<2> near = filler.nearby({{0, 0}, {lattice.nx, lattice.ny}});
+    const Lattice<2> lattice = specimen.lattice(filler.nearby(specimen.whole()));
     LocalIndex count = 0;
-    for (int j = near.lower[1]; j < near.upper[1]; ++j)
-      for (int i = near.lower[0]; i < near.upper[0]; ++i)
-        count += lattice(i, j) == std::int8_t(k) && filler.is_home(i, j);
+    for_each_index(lattice.part, [&](const IndexVec<2>& at) {
+      count += lattice(at) == std::int8_t(k) && filler.is_home(at[0], at[1]);
+    });
     body.particles.reserve(count);
-    for (int j = near.lower[1]; j < near.upper[1]; ++j)
-      for (int i = near.lower[0]; i < near.upper[0]; ++i)
-        if (lattice(i, j) == std::int8_t(k)) {
-          const std::size_t location = std::size_t(j) * lattice.nx + i;
-          filler.add(i, j, GlobalIndex(location), initial_velocity(scene, lattice, location));
-        }
+    for_each_index(lattice.part, [&](const IndexVec<2>& at) {
+      if (lattice(at) == std::int8_t(k))
+        filler.add(at[0], at[1], lattice.id(at),
+                   initial_velocity(scene, lattice, lattice.place(at)));
+    });
     body.particles.seal();
   }
   if (layout.load_cell) {

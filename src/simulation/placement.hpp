@@ -10,18 +10,9 @@
 
 namespace mpm {
 
-inline int axis_of(scene::Side side)
-{
-  return side == scene::Side::left || side == scene::Side::right ? 0 : 1;
-}
-inline bool upper_of(scene::Side side)
-{
-  return side == scene::Side::right || side == scene::Side::top;
-}
-
 /// Initial velocity of the particle at a location, m/s.
 std::array<double, 2> initial_velocity(const scene::Scene& scene,
-                                       const micrograph::Lattice& lattice, std::size_t location);
+                                       const micrograph::Lattice<2>& lattice, std::size_t location);
 
 /// The load cell: elastic like the first deformable material, stiffer and denser by the same
 /// ratio, so that waves run through it as fast as through the wood.
@@ -36,27 +27,31 @@ inline LocalIndex cell_of_location(const Layout& layout, int particles_per_cell,
   return layout.padding[d] + cells;
 }
 
-/// One of so many equal shares of the rows of locations.
+/// One of so many equal slabs of the rows of locations.
 struct RowShare {
   int part = 0, parts = 1;
 };
 
 /// visit(cell) for each particle in a share of the rows.
 template <class Visit>
-void for_each_particle_cell(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+void for_each_particle_cell(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
                             const Layout& layout, RowShare share, Visit visit)
 {
-  const int per_cell = specimen.particles_per_cell;
+  constexpr GlobalIndex chunk_locations = 1 << 22;  // held at a time
+  const int per_cell = specimen.particles_per_cell();
   const auto visit_location = [&](int i, int j) {
     visit(IndexVec<2>(cell_of_location(layout, per_cell, i, 0),
                       cell_of_location(layout, per_cell, j, 1)));
   };
-  const micrograph::Lattice& lattice = specimen.lattice;
-  for (int j = share.part; j < lattice.ny; j += share.parts)
-    for (int i = 0; i < lattice.nx; ++i)
-      if (lattice(i, j) != micrograph::Lattice::empty &&
-          scene.materials[lattice(i, j)].law != scene::Law::rigid)
-        visit_location(i, j);
+  const IndexBox<2> own = micrograph::slab(specimen.whole(), share.part, share.parts);
+  micrograph::for_each_chunk(own, chunk_locations, [&](const IndexBox<2>& chunk) {
+    const micrograph::Lattice<2> lattice = specimen.lattice(chunk);
+    for_each_index(chunk, [&](const IndexVec<2>& at) {
+      const std::int8_t material = lattice(at);
+      if (material != lattice.empty && scene.materials[material].law != scene::Law::rigid)
+        visit_location(at[0], at[1]);
+    });
+  });
   if (!layout.load_cell || share.part != 0) return;
   const IndexBox<2>& box = layout.load_cell->locations;
   for (int j = box.lower[1]; j < box.upper[1]; ++j)

@@ -47,7 +47,7 @@ std::string duration(double seconds)
 }
 
 /// Shape of the partition and its balance at the start.
-std::string ranks_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+std::string ranks_text(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
                        const Layout& layout, const Ownership<2>& ownership)
 {
   if (ownership.ranks() == 1) return "1";
@@ -91,17 +91,19 @@ double first_time_step(const Layout& layout)
          (layout.wave_speed + layout.largest_speed);
 }
 
-std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+std::string plan_text(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
                       const Layout& layout, const Decomposition<2>& decomposition)
 {
   const int ranks = decomposition.ranks();
-  double particles = 0;
-  for_each_particle_cell(scene, specimen, layout, {}, [&](const IndexVec<2>&) { particles += 1; });
+  double particles = layout.load_cell ? double(layout.load_cell->locations.size()) : 0;
+  for (std::size_t k = 0; k < scene.materials.size(); ++k)
+    if (scene.materials[k].law != scene::Law::rigid)
+      particles += double(specimen.particles_of_material()[k]);
   const double dt = first_time_step(layout);
   double steps = std::ceil(layout.end_time / dt);
   if (scene.steps) steps = std::min(steps, double(*scene.steps));
 
-  const auto transfer = make_transfer(scene.numerics, specimen.particles_per_cell);
+  const auto transfer = make_transfer(scene.numerics, specimen.particles_per_cell());
   int particle_columns = 1;  // id
   for (const Column& c :
        transfer->motion_columns(scene.numerics.update_order == scene::UpdateOrder::musl))
@@ -124,16 +126,18 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
   };
   text += fmt::format("{}\n", scene.title.empty() ? scene.name : scene.title);
   line("specimen",
-       fmt::format("{:.4g} x {:.4g} mm, relative density {:.4f}", 1e3 * specimen.size[0],
-                   1e3 * specimen.size[1], specimen.densities.front().value));
-  for (std::size_t k = 1; k < specimen.densities.size(); ++k)
-    line("", fmt::format("{}: {:.4f}, {:.0f} kg/m3", specimen.densities[k].window,
-                         specimen.densities[k].value, specimen.densities[k].bulk_density));
-  line("bulk density", fmt::format("{:.1f} kg/m3", specimen.densities.front().bulk_density));
+       fmt::format("{:.4g} x {:.4g} mm, relative density {:.4f}", 1e3 * specimen.size()[0],
+                   1e3 * specimen.size()[1], specimen.densities().front().value));
+  for (std::size_t k = 1; k < specimen.densities().size(); ++k)
+    line("", fmt::format("{}: {:.4f}, {:.0f} kg/m3", specimen.densities()[k].window,
+                         specimen.densities()[k].value, specimen.densities()[k].bulk_density));
+  if (specimen.picture())
+    line("picture", fmt::format("relative density {:.4f}", specimen.picture()->density));
+  line("bulk density", fmt::format("{:.1f} kg/m3", specimen.densities().front().bulk_density));
   line("grid", fmt::format("{} x {} cells of {:.4g} x {:.4g} um, {} x {} locations per cell",
-                           specimen.cells[0], specimen.cells[1], 1e6 * layout.geometry.spacing[0],
-                           1e6 * layout.geometry.spacing[1], specimen.particles_per_cell,
-                           specimen.particles_per_cell));
+                           specimen.cells()[0], specimen.cells()[1],
+                           1e6 * layout.geometry.spacing[0], 1e6 * layout.geometry.spacing[1],
+                           specimen.particles_per_cell(), specimen.particles_per_cell()));
   line("particles", fmt::format("{:.0f} of {} locations", particles, specimen.locations()));
   line("method", fmt::format("{}, {}, {}, plane {}", name_of(scene.numerics.shape_function),
                              name_of(scene.numerics.scheme), name_of(scene.numerics.update_order),

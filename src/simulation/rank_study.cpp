@@ -17,10 +17,10 @@ constexpr double study_strain = 0.5;
 /// and piston. Wood folds layer by layer instead; where the most crowded place is on the way is not
 /// known before the run.
 CellVisits<2> squeezed(const CellVisits<2>& cells, const scene::Loading& loading,
-                       const micrograph::SpecimenModel& specimen, const Layout& layout)
+                       const micrograph::Specimen<2>& specimen, const Layout& layout)
 {
   const int axis = axis_of(loading.piston);
-  const double first = layout.padding[axis], length = specimen.cells[axis];
+  const double first = layout.padding[axis], length = specimen.cells()[axis];
   const double fixed = upper_of(loading.piston) ? first : first + length;
   return [=](const std::function<void(const IndexVec<2>&)>& visit) {
     cells([&](const IndexVec<2>& cell) {
@@ -35,7 +35,7 @@ CellVisits<2> squeezed(const CellVisits<2>& cells, const scene::Loading& loading
 
 }  // namespace
 
-std::string rank_study_text(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+std::string rank_study_text(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
                             const Layout& layout, const std::vector<int>& ranks)
 {
   const CellVisits<2> start = [&](const std::function<void(const IndexVec<2>&)>& visit) {
@@ -44,7 +44,7 @@ std::string rank_study_text(const scene::Scene& scene, const micrograph::Specime
   CellVisits<2> later;
   if (const auto* loading = std::get_if<scene::Loading>(&scene.motion))
     later = squeezed(start, *loading, specimen, layout);
-  const int support = make_transfer(scene.numerics, specimen.particles_per_cell)->support();
+  const int support = make_transfer(scene.numerics, specimen.particles_per_cell())->support();
   std::string text =
       partition_table<2>(layout.geometry, ranks, partition_rules(scene), support, start, later);
   text +=

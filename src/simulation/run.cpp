@@ -37,8 +37,7 @@ std::vector<BoundaryCondition<2>*> pointers(
 
 /// Moments of snapshots, ascending, s.
 std::vector<double> snapshot_moments(const scene::Scene& scene,
-                                     const micrograph::SpecimenModel& specimen,
-                                     const Layout& layout)
+                                     const micrograph::Specimen<2>& specimen, const Layout& layout)
 {
   std::vector<double> times = scene.output.snapshot_times;
   for (const double strain : scene.output.snapshot_strains)
@@ -49,7 +48,7 @@ std::vector<double> snapshot_moments(const scene::Scene& scene,
 
 class Run {
  public:
-  Run(const scene::Scene& scene, const micrograph::SpecimenModel& specimen, const Layout& layout,
+  Run(const scene::Scene& scene, const micrograph::Specimen<2>& specimen, const Layout& layout,
       const Decomposition<2>& decomposition, const std::filesystem::path& folder)
       : comm_(decomposition.comm()),
         scene_(scene),
@@ -204,13 +203,18 @@ class Run {
     output::Summary summary;
     summary.set("name", scene_.name);
     summary.set("title", scene_.title);
-    summary.set("relative_density", specimen_.densities.front().value);
-    summary.set("bulk_density", specimen_.densities.front().bulk_density);
-    for (std::size_t k = 1; k < specimen_.densities.size(); ++k)
-      summary.section("windows").set(specimen_.densities[k].window, specimen_.densities[k].value);
+    summary.set("relative_density", specimen_.densities().front().value);
+    if (specimen_.picture()) {
+      summary.set("picture_relative_density", specimen_.picture()->density);
+      summary.set("removed_locations", specimen_.picture()->removed);
+    }
+    summary.set("bulk_density", specimen_.densities().front().bulk_density);
+    for (std::size_t k = 1; k < specimen_.densities().size(); ++k)
+      summary.section("windows").set(specimen_.densities()[k].window,
+                                     specimen_.densities()[k].value);
     summary.set("particles", particles_);
     summary.set("cells",
-                std::vector<double>{double(specimen_.cells[0]), double(specimen_.cells[1])});
+                std::vector<double>{double(specimen_.cells()[0]), double(specimen_.cells()[1])});
     summary.set("ranks", ranks_of(comm_));
     summary.set("steps", stepper_.steps());
     summary.set("time_step", first_time_step(layout_));
@@ -286,7 +290,7 @@ class Run {
 
   MPI_Comm comm_;
   const scene::Scene& scene_;
-  const micrograph::SpecimenModel& specimen_;
+  const micrograph::Specimen<2>& specimen_;
   const Layout& layout_;
   std::filesystem::path folder_;
   std::chrono::steady_clock::time_point start_;
@@ -306,7 +310,7 @@ class Run {
 
 }  // namespace
 
-void run_scene(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+void run_scene(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
                const Layout& layout, const Decomposition<2>& decomposition,
                const std::filesystem::path& folder)
 {

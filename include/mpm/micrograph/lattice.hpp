@@ -1,27 +1,63 @@
 #pragma once
-/// The lattice of particle locations: how fine it is, and what fills it.
+/// The lattice of particle locations: how fine it is, and what fills a part of it.
 
-#include <mpm/micrograph/image.hpp>
-#include <mpm/micrograph/specimen.hpp>
+#include <mpm/core/index_box.hpp>
+#include <mpm/scene/scene.hpp>
+
+#include <cstdint>
+#include <vector>
 
 namespace mpm::micrograph {
 
+/// A part of the regular lattice of particle locations over the specimen. x runs fastest, the
+/// specimen's lower corner comes first (images are stored top row first: rastering turns them
+/// over).
+template <int Dim>
+struct Lattice {
+  static constexpr std::int8_t empty = -1;
+  IndexVec<Dim> count =
+      IndexVec<Dim>::Zero();          ///< of the whole specimen: cells x particles_per_cell
+  IndexBox<Dim> part{};               ///< the locations held
+  std::vector<std::int8_t> material;  ///< index into scene.materials, or `empty`; one per location
+  std::vector<std::int16_t> shape;    ///< index into specimen.shapes, or -1; empty for images
+
+  /// Place of a location of the part in `material` and `shape`.
+  std::size_t place(const IndexVec<Dim>& location) const
+  {
+    return std::size_t(number(location - part.lower, part.count()));
+  }
+  std::int8_t operator()(const IndexVec<Dim>& location) const { return material[place(location)]; }
+  /// Number of a location in the whole lattice, x fastest: the same whatever part is held.
+  GlobalIndex id(const IndexVec<Dim>& location) const { return number(location, count); }
+
+ private:
+  static GlobalIndex number(const IndexVec<Dim>& at, const IndexVec<Dim>& count)
+  {
+    GlobalIndex result = 0;
+    for (int d = Dim; d-- > 0;) result = result * count[d] + at[d];
+    return result;
+  }
+};
+
 /// Cells over a specimen of this size (m): as given, or the whole numbers nearest to the spacing
-/// asked for; with neither, 150 along x and nearly square cells. Throws InputError.
-std::array<int, 2> cell_counts(const scene::Grid& grid, const std::array<double, 2>& size);
+/// asked for; with neither, 150 along x and nearly equal edges. Throws InputError.
+template <int Dim>
+IndexVec<Dim> cell_counts(const scene::Grid& grid, const Vec<Dim>& size);
 
-/// Every location empty. Throws InputError for more locations than can be numbered.
-Lattice empty_lattice(const std::array<int, 2>& cells, int particles_per_cell);
+/// Locations of the whole specimen along each axis. Throws InputError for more of them than the
+/// parts together can number.
+template <int Dim>
+IndexVec<Dim> location_counts(const IndexVec<Dim>& cells, int particles_per_cell, int parts);
 
-/// A location belongs to the last shape that contains its centre.
-void fill_with_shapes(Lattice& lattice, const scene::Scene& scene);
+/// Centre of a location as a fraction of the specimen's edge.
+constexpr double centre(int index, int count)
+{
+  return (index + 0.5) / count;
+}
 
-/// A location belongs to the cell wall, or to a material, by the mean gray of the image over its
-/// rectangle. Returns the threshold in use; 0 with bands, which take its place.
-double fill_with_image(Lattice& lattice, const scene::Scene& scene, const GrayImage& image);
-
-/// Filled locations / locations and kg/m^3, of the whole and of each window. A location counts
-/// where its centre lies.
-std::vector<RelativeDensity> densities(const Lattice& lattice, const scene::Scene& scene);
+extern template IndexVec<2> cell_counts<2>(const scene::Grid&, const Vec<2>&);
+extern template IndexVec<3> cell_counts<3>(const scene::Grid&, const Vec<3>&);
+extern template IndexVec<2> location_counts<2>(const IndexVec<2>&, int, int);
+extern template IndexVec<3> location_counts<3>(const IndexVec<3>&, int, int);
 
 }  // namespace mpm::micrograph

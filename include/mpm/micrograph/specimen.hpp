@@ -1,26 +1,18 @@
 #pragma once
-/// From a scene's specimen (an image or shapes) to a lattice of particle locations.
+/// From a scene's specimen (an image or shapes) to its particle locations.
 
-#include <mpm/scene/scene.hpp>
+#include <mpm/micrograph/lattice.hpp>
+#include <mpm/micrograph/location_source.hpp>
+#include <mpm/micrograph/picture.hpp>
+#include <mpm/micrograph/share.hpp>
 
-#include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace mpm::micrograph {
-
-/// Regular lattice of particle locations over the specimen. x runs fastest; row 0 is at the bottom
-/// (images are stored top row first: the mapping turns them over).
-struct Lattice {
-  static constexpr std::int8_t empty = -1;
-  int nx = 0, ny = 0;                 ///< locations = cells x particles_per_cell
-  std::vector<std::int8_t> material;  ///< index into scene.materials, or `empty`; nx * ny
-  std::vector<std::int16_t>
-      shape;  ///< index into specimen.shapes (initial velocity); empty for images
-
-  std::int8_t operator()(int i, int j) const { return material[std::size_t(j) * nx + i]; }
-};
 
 struct RelativeDensity {
   std::string window;   ///< "" for the whole specimen
@@ -28,21 +20,55 @@ struct RelativeDensity {
   double bulk_density;  ///< kg/m^3
 };
 
-struct SpecimenModel {
-  std::array<double, 2> size;  ///< m
-  std::array<int, 2> cells;
-  int particles_per_cell;  ///< per direction
-  Lattice lattice;
-  std::vector<RelativeDensity> densities;  ///< whole specimen first, then the windows
-  double threshold = 0;                    ///< gray level in use (image only)
-  long removed = 0;                        ///< locations removed as specks or unconnected pieces
+/// What fills each location, without holding them: any part can be rastered at any time. What is
+/// known of the whole was counted by all parts together, each its slab. A location counts in a
+/// window where its centre lies.
+template <int Dim>
+class Specimen {
+ public:
+  /// `picture`: as read_picture returns it. Collective. Throws InputError on all parts or on none
+  /// (no wall found, impossible shapes, too many locations).
+  Specimen(const scene::Scene& scene, std::optional<Picture> picture, const Share& share = {});
 
-  std::int64_t locations() const { return std::int64_t(lattice.nx) * lattice.ny; }
-  std::int64_t particles() const;  ///< filled locations
+  const Vec<Dim>& size() const { return size_; }  ///< m
+  const IndexVec<Dim>& cells() const { return cells_; }
+  int particles_per_cell() const { return particles_per_cell_; }  ///< per direction
+  /// Locations along each axis, cells x particles per cell, and the box of all of them.
+  const IndexVec<Dim>& count() const { return count_; }
+  IndexBox<Dim> whole() const { return {IndexVec<Dim>::Zero(), count_}; }
+  GlobalIndex locations() const { return whole().size(); }
+
+  GlobalIndex particles() const;  ///< filled locations
+  /// Per entry of scene.materials.
+  const std::vector<GlobalIndex>& particles_of_material() const { return particles_of_material_; }
+  /// Whole specimen first, then the windows.
+  const std::vector<RelativeDensity>& densities() const { return densities_; }
+  /// m/s, largest component of a deformable particle's initial velocity.
+  double largest_initial_speed() const { return largest_initial_speed_; }
+  /// Nothing for shapes.
+  const std::optional<PictureFigures>& picture() const { return picture_; }
+
+  /// Rasters a part of the lattice. Not collective; any part may ask for any box of locations.
+  Lattice<Dim> lattice(const IndexBox<Dim>& part) const;
+
+ private:
+  void settle_picture(const scene::Scene& scene, Picture picture, const Share& share);
+  void settle_shapes(const scene::Scene& scene, const Share& share);
+  void settle_grid(const scene::Scene& scene, const Share& share);
+  /// Throws on all parts for a shape that contains no location.
+  void check_found(const std::vector<double>& found) const;
+
+  Vec<Dim> size_;
+  IndexVec<Dim> cells_, count_;
+  int particles_per_cell_ = 1;
+  std::vector<GlobalIndex> particles_of_material_;
+  std::vector<RelativeDensity> densities_;
+  double largest_initial_speed_ = 0;
+  std::optional<PictureFigures> picture_;
+  std::unique_ptr<const LocationSource<Dim>> source_;
 };
 
-/// Reads the image named by the scene, or rasters its shapes.
-/// Throws InputError (missing, unreadable or unsuitable image; no wall found; size unknown).
-SpecimenModel build_specimen(const scene::Scene& scene);
+extern template class Specimen<2>;
+extern template class Specimen<3>;
 
 }  // namespace mpm::micrograph

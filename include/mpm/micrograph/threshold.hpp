@@ -1,9 +1,10 @@
 #pragma once
 /// The gray level that separates cell wall from void.
 
-#include <mpm/micrograph/image.hpp>
+#include <mpm/micrograph/share.hpp>
 #include <mpm/scene/scene.hpp>
 
+#include <cstdint>
 #include <span>
 
 namespace mpm::micrograph {
@@ -21,8 +22,18 @@ constexpr bool is_wall(double mean, double threshold, scene::Wall wall)
 /// gap, rounded down. Throws InputError for an image of one level.
 double otsu_threshold(std::span<const double> gray);
 
-/// The threshold that makes the fraction of wall among the locations nearest to `target`; halfway
-/// between the two means it separates. Throws InputError unless 0 < target < 1.
-double threshold_for_density(std::span<const double> means, double target, scene::Wall wall);
+/// The n-th smallest (n from 0) of the values that all parts hold together; none is negative.
+/// Collective.
+double nth_smallest(std::span<const double> values, std::int64_t n, const Share& share);
+
+/// The level that has the nearest to `share_below` (0 to 1) of all parts' values below it; halfway
+/// between the two values it separates. Collective.
+double level_with_share_below(std::span<const double> values, double share_below,
+                              const Share& share);
+
+/// The threshold that makes the fraction of wall among the locations nearest to `target`.
+/// Collective. Throws InputError unless 0 < target < 1.
+double threshold_for_density(std::span<const double> means, double target, scene::Wall wall,
+                             const Share& share);
 
 }  // namespace mpm::micrograph

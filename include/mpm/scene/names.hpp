@@ -21,8 +21,15 @@ template <class Choice>
 inline constexpr std::array<Named<Choice>, 0> names_of{};
 
 template <>
-inline constexpr auto names_of<Side> = std::to_array<Named<Side>>(
-    {{Side::left, "left"}, {Side::right, "right"}, {Side::bottom, "bottom"}, {Side::top, "top"}});
+inline constexpr auto names_of<Side> = std::to_array<Named<Side>>({{Side::left, "left"},
+                                                                   {Side::right, "right"},
+                                                                   {Side::bottom, "bottom"},
+                                                                   {Side::top, "top"},
+                                                                   {Side::back, "back"},
+                                                                   {Side::front, "front"}});
+template <>
+inline constexpr auto names_of<Axis> =
+    std::to_array<Named<Axis>>({{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}});
 template <>
 inline constexpr auto names_of<Plane> = std::to_array<Named<Plane>>({{Plane::strain, "strain"},
                                                                      {Plane::stress, "stress"}});
@@ -41,6 +48,9 @@ inline constexpr auto names_of<UniqueAxis> = std::to_array<Named<UniqueAxis>>(
 template <>
 inline constexpr auto names_of<Wall> = std::to_array<Named<Wall>>({{Wall::bright, "bright"},
                                                                    {Wall::dark, "dark"}});
+template <>
+inline constexpr auto names_of<Sampling> = std::to_array<Named<Sampling>>(
+    {{Sampling::match, "match"}, {Sampling::threshold, "threshold"}});
 template <>
 inline constexpr auto names_of<ShapeFunction> =
     std::to_array<Named<ShapeFunction>>({{ShapeFunction::linear, "linear"},
@@ -61,8 +71,11 @@ inline constexpr auto names_of<DecompositionKind> =
                                              {DecompositionKind::cuts, "cuts"},
                                              {DecompositionKind::metis, "metis"}});
 template <>
-inline constexpr auto names_of<Lateral> = std::to_array<Named<Lateral>>(
-    {{Lateral::rigid, "rigid"}, {Lateral::free, "free"}, {Lateral::symmetric, "symmetric"}});
+inline constexpr auto names_of<Lateral> =
+    std::to_array<Named<Lateral>>({{Lateral::rigid, "rigid"},
+                                   {Lateral::free, "free"},
+                                   {Lateral::symmetric, "symmetric"},
+                                   {Lateral::periodic, "periodic"}});
 template <>
 inline constexpr auto names_of<Grip> = std::to_array<Named<Grip>>({{Grip::stick, "stick"},
                                                                    {Grip::slip, "slip"}});

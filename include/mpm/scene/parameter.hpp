@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,14 +40,36 @@ struct Parameter {
   Need need;
   std::string default_text;
   bool decides;
-  std::function<bool(const Given&, Owner&)> read;
-  std::function<Node(const Owner&)> write;  ///< Kind::nothing: left out
+  std::function<bool(const Given&, Owner&, int dimensions)> read;
+  std::function<Node(const Owner&, int dimensions)> write;  ///< Kind::nothing: left out
   Condition<Owner> condition{};
+  std::optional<int> dimensions{};  ///< of the scenes that it belongs to; nothing: any
 
-  bool applies(const Owner& owner) const { return !condition.holds || condition.holds(owner); }
+  bool applies(const Owner& owner, int dimensions_of_scene) const
+  {
+    return dimensions.value_or(dimensions_of_scene) == dimensions_of_scene &&
+           (!condition.holds || condition.holds(owner));
+  }
+  /// What it belongs to: `law von_mises`; empty: any.
+  std::string only() const
+  {
+    if (!dimensions) return condition.text;
+    const std::string where = *dimensions == 2 ? "scenes in the plane" : "scenes in space";
+    return condition.text.empty() ? where : condition.text + " in " + where;
+  }
   Parameter when(Condition<Owner> only) &&
   {
     condition = std::move(only);
+    return std::move(*this);
+  }
+  Parameter in_plane() &&
+  {
+    dimensions = 2;
+    return std::move(*this);
+  }
+  Parameter in_space() &&
+  {
+    dimensions = 3;
     return std::move(*this);
   }
 };
@@ -54,10 +77,26 @@ struct Parameter {
 /// The list of keys of each struct that a map describes; defined in schema_*.cpp.
 template <class Owner>
 const std::vector<Parameter<Owner>>& parameters();
+/// Of structs that bring their own.
+template <class Owner>
+requires requires
+{
+  Owner::rows();
+}
+const std::vector<Parameter<Owner>>& parameters()
+{
+  return Owner::rows();
+}
 
 /// The name of the list on the reference page; specialised for each struct that is a map.
 template <class Owner>
 inline constexpr std::string_view section{};
+template <class Owner>
+requires requires
+{
+  Owner::keyword;
+}
+inline constexpr std::string_view section<Owner> = Owner::keyword;
 
 /// A row whose value is computed from several members.
 template <class T, class Owner>
@@ -72,14 +111,20 @@ Parameter<Owner> property(std::string key, std::function<T(const Owner&)> get,
           traits.need,
           traits.default_text,
           traits.decides || std::is_enum_v<T>,
-          [rule, get, set](const Given& given, Owner& owner) {
+          [rule, get, set](const Given& given, Owner& owner, int dimensions) {
+            Rule here = rule;
+            here.dimensions = dimensions;
             T value = get(owner);
-            const bool good = Value<T>::read(given, rule, value);
+            const bool good = Value<T>::read(given, here, value);
             if (good || (keeps_parts<T> && given.node.kind != Node::Kind::scalar))
               set(owner, std::move(value));
             return good;
           },
-          [rule, get](const Owner& owner) { return Value<T>::write(get(owner), rule); }};
+          [rule, get](const Owner& owner, int dimensions) {
+            Rule here = rule;
+            here.dimensions = dimensions;
+            return Value<T>::write(get(owner), here);
+          }};
 }
 
 /// A row for a member.
@@ -115,9 +160,9 @@ inline std::string joined(const std::string& path, const std::string& key)
   return path.empty() ? key : path + "." + key;
 }
 
-/// Reads a map row by row, in the order of the list.
+/// Reads a map of a scene of so many dimensions row by row, in the order of the list.
 template <class Owner>
-bool read_map(const Given& given, Owner& owner)
+bool read_map(const Given& given, Owner& owner, int dimensions)
 {
   const auto& rows = parameters<Owner>();
   if (given.node.kind == Node::Kind::scalar || given.node.kind == Node::Kind::list)
@@ -131,22 +176,22 @@ bool read_map(const Given& given, Owner& owner)
   });
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const Parameter<Owner>& row = rows[r];
-    const bool applies = row.applies(owner);
+    const bool applies = row.applies(owner, dimensions);
     // A key may have a row for each of several conditions.
     const auto other = std::ranges::find_if(rows, [&](const Parameter<Owner>& candidate) {
       return candidate.key == row.key && &candidate != &row &&
-             (candidate.applies(owner) || (!applies && &candidate < &row));
+             (candidate.applies(owner, dimensions) || (!applies && &candidate < &row));
     });
     if (!applies && other != rows.end()) continue;
 
     if (const Entry* entry = given.node.find(row.key)) {
       const Given value{entry->value, joined(given.path, row.key), given.problems};
       if (applies) {
-        const bool read = row.read(value, owner);
+        const bool read = row.read(value, owner, dimensions);
         if (!read && row.decides) decided = false;
         good &= read;
       } else if (decided) {
-        report_foreign(given, *entry, row.condition.text);
+        report_foreign(given, *entry, row.only());
         good = false;
       }
     } else if (row.need == Need::required && applies && decided &&
@@ -159,13 +204,13 @@ bool read_map(const Given& given, Owner& owner)
 }
 
 template <class Owner>
-Node write_map(const Owner& owner)
+Node write_map(const Owner& owner, int dimensions)
 {
   Node node;
   node.kind = Node::Kind::map;
   for (const auto& row : parameters<Owner>()) {
-    if (!row.applies(owner)) continue;
-    Node value = row.write(owner);
+    if (!row.applies(owner, dimensions)) continue;
+    Node value = row.write(owner, dimensions);
     if (value.kind != Node::Kind::nothing) node.entries.push_back({row.key, {}, std::move(value)});
   }
   return node;
@@ -177,8 +222,11 @@ requires(!section<T>.empty()) inline constexpr bool keeps_parts<T> = true;
 
 template <class T>
 requires(!section<T>.empty()) struct Value<T> {
-  static bool read(const Given& given, const Rule&, T& value) { return read_map(given, value); }
-  static Node write(const T& value, const Rule&) { return write_map(value); }
+  static bool read(const Given& given, const Rule& rule, T& value)
+  {
+    return read_map(given, value, rule.dimensions);
+  }
+  static Node write(const T& value, const Rule& rule) { return write_map(value, rule.dimensions); }
   static std::string describe(const Rule&) { return link_to(section<T>); }
 };
 

@@ -2,6 +2,9 @@
 /// What a scene file says, in SI units, with every default filled in. Plain data: reading and
 /// checking live in reader.hpp.
 
+#include <mpm/scene/plane_or_space.hpp>
+#include <mpm/scene/shapes.hpp>
+
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -11,7 +14,16 @@
 
 namespace mpm::scene {
 
-enum class Side { left, right, bottom, top };
+/// The lower and upper side of each axis: x, y, z. The last two belong to scenes in space.
+enum class Side { left, right, bottom, top, back, front };
+constexpr int axis_of(Side side)
+{
+  return int(side) / 2;
+}
+constexpr bool upper_of(Side side)
+{
+  return int(side) % 2 == 1;
+}
 enum class Plane { strain, stress };
 
 // ---------------------------------------------------------------------------- materials
@@ -39,7 +51,7 @@ struct Material {
   double axial_shear_modulus = 0;                        ///< Pa, TI
   UniqueAxis unique_axis = UniqueAxis::out_of_plane;     ///< TI
   double axis_angle = 0;                                 ///< rad from +x, TI with in_plane
-  std::array<double, 2> velocity{0, 0};                  ///< m/s, rigid
+  PerAxis<double> velocity{};                            ///< m/s, rigid
   bool operator==(const Material&) const = default;
 };
 
@@ -47,6 +59,10 @@ struct Material {
 
 enum class Wall { bright, dark };
 enum class ThresholdRule { value, otsu, target_relative_density };
+enum class Sampling {
+  match,     ///< as many locations as pixels, by share, reach the threshold
+  threshold  ///< a location's mean gray is compared with the pixels' threshold
+};
 
 /// Gray levels [from, to] (inclusive lower, exclusive upper, of 0..256) made of one material.
 struct GrayBand {
@@ -56,11 +72,12 @@ struct GrayBand {
   bool operator==(const GrayBand&) const = default;
 };
 
-/// Part of the specimen whose relative density is reported, as fractions of its width and height.
+/// Part of the specimen whose relative density is reported, as fractions of its size.
 struct Window {
   std::string name;
   std::array<double, 2> x{0, 1};
   std::array<double, 2> y{0, 1};
+  std::array<double, 2> z{0, 1};  ///< in space
   bool operator==(const Window&) const = default;
 };
 
@@ -68,6 +85,7 @@ struct Micrograph {
   std::filesystem::path file;                       ///< resolved against the scene's folder
   std::optional<std::array<double, 2>> image_size;  ///< m, of the whole image as stored
   std::optional<std::array<double, 2>> pixel_size;  ///< m
+  std::optional<double> depth;  ///< m along z, through which the picture is drawn out in space
   std::optional<std::array<int, 4>> crop;  ///< pixels of the file: x, y (from top), width, height
   int rotate = 0;                          ///< degrees counter-clockwise: 0, 90, 180, 270
   bool flip_horizontal = false;            ///< after the rotation
@@ -76,44 +94,18 @@ struct Micrograph {
   ThresholdRule threshold_rule = ThresholdRule::value;
   double threshold = 150;              ///< gray level of 0..255
   double target_relative_density = 0;  ///< with ThresholdRule::target_relative_density
-  int remove_specks = 0;               ///< wall pieces of fewer locations than this are void
-  bool remove_unconnected = false;     ///< keep only pieces linked to the largest
-  std::vector<GrayBand> bands;         ///< several materials by gray; empty: one material
+  Sampling sampling = Sampling::match;
+  int remove_specks = 0;            ///< wall pieces of fewer locations than this are void
+  bool remove_unconnected = false;  ///< keep only pieces linked to the largest
+  std::vector<GrayBand> bands;      ///< several materials by gray; empty: one material
   bool operator==(const Micrograph&) const = default;
-};
-
-struct Box {
-  std::array<double, 2> lower, upper;
-  bool operator==(const Box&) const = default;
-};
-struct Disc {
-  std::array<double, 2> centre;
-  double radius;
-  bool operator==(const Disc&) const = default;
-};
-struct Polygon {
-  std::vector<std::array<double, 2>> vertices;
-  bool operator==(const Polygon&) const = default;
-};
-/// Regular hexagonal honeycomb that fills the box.
-struct Honeycomb {
-  std::array<double, 2> lower, upper;
-  double cell_side;       ///< m, centre-line length of a hexagon's side
-  double wall_thickness;  ///< m
-  bool operator==(const Honeycomb&) const = default;
-};
-struct Shape {
-  std::variant<Box, Disc, Polygon, Honeycomb> geometry;
-  std::string material;                  ///< name; "void" cuts a hole in earlier shapes
-  std::array<double, 2> velocity{0, 0};  ///< m/s, initial
-  bool operator==(const Shape&) const = default;
 };
 
 /// Either an image or shapes; shapes need `size`.
 struct Specimen {
   std::optional<Micrograph> micrograph;
   std::vector<Shape> shapes;
-  std::array<double, 2> size{0, 0};  ///< m; from the image if there is one
+  PerAxis<double> size{};  ///< m; from the image if there is one
   std::vector<Window> windows;
   bool operator==(const Specimen&) const = default;
 };
@@ -121,11 +113,10 @@ struct Specimen {
 // ---------------------------------------------------------------------------- numerics
 
 struct Grid {
-  std::optional<std::array<int, 2>> cells;       ///< over the specimen
-  std::optional<std::array<double, 2>> spacing;  ///< m; rounded so that whole cells fit
-  int particles_per_cell = 2;                    ///< per direction
-  /// Empty space left, right, below, above the specimen, m.
-  std::array<double, 4> margin{0, 0, 0, 0};
+  std::optional<PerAxis<int>> cells;       ///< over the specimen
+  std::optional<PerAxis<double>> spacing;  ///< m; rounded so that whole cells fit
+  int particles_per_cell = 2;              ///< per direction
+  PerSide<double> margin{};                ///< m, empty space beside the specimen
   bool operator==(const Grid&) const = default;
 };
 
@@ -135,21 +126,23 @@ enum class UpdateOrder { musl, usf, usl };
 enum class DecompositionKind { automatic, cuts, metis };
 
 struct Numerics {
-  Plane plane = Plane::strain;
-  double thickness = 1;  ///< m, out of plane
+  Plane plane = Plane::strain;  ///< of a scene in the plane
+  double thickness = 1;         ///< m, out of the plane
   ShapeFunction shape_function = ShapeFunction::gimp;
   TransferScheme scheme = TransferScheme::flip;
   UpdateOrder update_order = UpdateOrder::musl;
   std::optional<double> cfl;  ///< default depends on shape function and update order
   DecompositionKind decomposition = DecompositionKind::automatic;
-  std::array<int, 2> ranks{0, 0};  ///< process grid of cuts; 0: chosen
-  int repartition_interval = 0;    ///< steps; 0: when it pays
+  PerAxis<int> ranks{};          ///< process grid of cuts; 0: chosen
+  int repartition_interval = 0;  ///< steps; 0: when it pays
   bool operator==(const Numerics&) const = default;
 };
 
 // ---------------------------------------------------------------------------- loading
 
-enum class Lateral { rigid, free, symmetric };
+/// `periodic`: what leaves through one side comes in through the other; both sides of an axis or
+/// none.
+enum class Lateral { rigid, free, symmetric, periodic };
 enum class Grip { stick, slip };
 
 struct LoadCell {
@@ -164,17 +157,17 @@ struct Loading {
   double strain = 0.6;  ///< end of the run
   /// s, smooth start (0: at once). Default: eight times what the fastest wave needs to cross.
   std::optional<double> ramp_time;
-  Grip grip = Grip::stick;                                         ///< of piston and fixed edge
-  std::array<Lateral, 2> lateral{Lateral::rigid, Lateral::rigid};  ///< lower (left), upper (right)
+  Grip grip = Grip::stick;            ///< of piston and fixed edge
+  PerLateralSide<Lateral> lateral{};  ///< rigid unless given
   std::optional<LoadCell> load_cell;
   bool operator==(const Loading&) const = default;
 };
 
-/// Free motion without a piston: runs to `end_time`; each side of the grid rigid, free or
-/// symmetric.
+/// Free motion without a piston: runs to `end_time`.
 struct FreeMotion {
   double end_time = 0;  ///< s
-  std::array<Lateral, 4> sides{Lateral::free, Lateral::free, Lateral::free, Lateral::free};
+  PerSide<Lateral> sides{Lateral::free, Lateral::free, Lateral::free,
+                         Lateral::free, Lateral::free, Lateral::free};  ///< of the grid
   bool operator==(const FreeMotion&) const = default;
 };
 
@@ -205,6 +198,7 @@ struct Scene {
   std::filesystem::path file;  ///< as given
   std::string name;            ///< stem of the file unless `name` is given
   std::string title;
+  int dimensions = 2;  ///< 2: in the plane; 3: in space
   std::vector<Material> materials;
   Specimen specimen;
   Grid grid;

@@ -38,14 +38,6 @@ inline constexpr std::string_view section<Window> = "window";
 template <>
 inline constexpr std::string_view section<Shape> = "shape";
 template <>
-inline constexpr std::string_view section<Box> = "box";
-template <>
-inline constexpr std::string_view section<Disc> = "disc";
-template <>
-inline constexpr std::string_view section<Polygon> = "polygon";
-template <>
-inline constexpr std::string_view section<Honeycomb> = "honeycomb";
-template <>
 inline constexpr std::string_view section<Grid> = "grid";
 template <>
 inline constexpr std::string_view section<Numerics> = "numerics";
@@ -71,14 +63,6 @@ template <>
 const std::vector<Parameter<Window>>& parameters<Window>();
 template <>
 const std::vector<Parameter<Shape>>& parameters<Shape>();
-template <>
-const std::vector<Parameter<Box>>& parameters<Box>();
-template <>
-const std::vector<Parameter<Disc>>& parameters<Disc>();
-template <>
-const std::vector<Parameter<Polygon>>& parameters<Polygon>();
-template <>
-const std::vector<Parameter<Honeycomb>>& parameters<Honeycomb>();
 template <>
 const std::vector<Parameter<Grid>>& parameters<Grid>();
 template <>

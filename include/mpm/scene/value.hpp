@@ -11,11 +11,14 @@
 #include <mpm/scene/names.hpp>
 #include <mpm/scene/problems.hpp>
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mpm::scene {
@@ -25,6 +28,7 @@ struct Rule {
   Quantity quantity = Quantity::number;
   Bound bound{};
   bool spread = false;  ///< one value may stand for all entries of an array
+  int dimensions = 2;   ///< of the scene that is read, written or described
 };
 
 template <class T>
@@ -41,6 +45,12 @@ inline constexpr bool keeps_parts<std::vector<T>> = keeps_parts<T>;
 
 /// One scalar; reports a list, a map or nothing. `wanted`: `a word`.
 bool is_scalar(const Given& given, const std::string& wanted, const std::string& remedy = "");
+/// What makes a scene one in space or in the plane, for lists of the wrong length.
+inline constexpr std::string_view why_in_space =
+    "as specimen.size with three components, or specimen.depth, makes a scene in space";
+inline constexpr std::string_view why_in_plane =
+    "as the scene lies in the plane: neither has specimen.size three components nor is "
+    "specimen.depth given";
 /// `a`, `b` or `c`
 std::string alternatives(const std::vector<std::string>& names);
 
@@ -134,29 +144,45 @@ struct Value<std::optional<T>> {
   static std::string describe(const Rule& rule) { return Value<T>::describe(rule); }
 };
 
+/// The entries of a list of so many, or the one value that stands for all; `wanted`: `a list of 2`.
+template <class T>
+bool read_entries(const Given& given, const Rule& rule, std::span<T> values,
+                  const std::string& wanted)
+{
+  if (rule.spread && given.node.kind != Node::Kind::list) {
+    if (!Value<T>::read(given, rule, values[0])) return false;
+    std::ranges::fill(values, values[0]);
+    return true;
+  }
+  if (given.node.kind != Node::Kind::list || given.node.items.size() != values.size())
+    return given.refuse("must be " + wanted);
+  bool good = true;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    good &= Value<T>::read(given.item(i), rule, values[i]);
+  return good;
+}
+
+template <class T>
+Node write_entries(std::span<const T> values, const Rule& rule)
+{
+  Node node;
+  node.kind = Node::Kind::list;
+  for (const T& value : values) node.items.push_back(Value<T>::write(value, rule));
+  return node;
+}
+
 template <class T, std::size_t N>
 struct Value<std::array<T, N>> {
   static bool read(const Given& given, const Rule& rule, std::array<T, N>& values)
   {
     std::array<T, N> inner = values;
-    if (rule.spread && given.node.kind != Node::Kind::list) {
-      if (!Value<T>::read(given, rule, inner[0])) return false;
-      values.fill(inner[0]);
-      return true;
-    }
-    if (given.node.kind != Node::Kind::list || given.node.items.size() != N)
-      return given.refuse("must be " + words());
-    bool good = true;
-    for (std::size_t i = 0; i < N; ++i) good &= Value<T>::read(given.item(i), rule, inner[i]);
+    const bool good = read_entries<T>(given, rule, inner, words());
     if (good) values = inner;
     return good;
   }
   static Node write(const std::array<T, N>& values, const Rule& rule)
   {
-    Node node;
-    node.kind = Node::Kind::list;
-    for (const T& value : values) node.items.push_back(Value<T>::write(value, rule));
-    return node;
+    return write_entries<T>(values, rule);
   }
   static std::string describe(const Rule& rule)
   {
@@ -165,6 +191,39 @@ struct Value<std::array<T, N>> {
 
  private:
   static std::string words() { return "a list of " + std::to_string(N); }
+};
+
+template <class T, std::size_t InPlane, std::size_t InSpace>
+struct Value<PlaneOrSpace<T, InPlane, InSpace>> {
+  using Values = PlaneOrSpace<T, InPlane, InSpace>;
+
+  static bool read(const Given& given, const Rule& rule, Values& values)
+  {
+    Values inner = values;
+    const bool good =
+        read_entries<T>(given, rule, std::span(inner).first(Values::count(rule.dimensions)),
+                        words(rule.dimensions, given.node.items.size()));
+    if (good) values = inner;
+    return good;
+  }
+  static Node write(const Values& values, const Rule& rule)
+  {
+    return write_entries<T>(std::span(values).first(Values::count(rule.dimensions)), rule);
+  }
+  static std::string describe(const Rule& rule)
+  {
+    return (rule.spread ? "one value or a list of " : "a list of ") + std::to_string(InPlane) +
+           " (in space " + std::to_string(InSpace) + "): " + Value<T>::describe(rule);
+  }
+
+ private:
+  static std::string words(int dimensions, std::size_t given)
+  {
+    const std::string wanted = "a list of " + std::to_string(Values::count(dimensions));
+    if (given == InPlane && dimensions == 3) return wanted + ", " + std::string(why_in_space);
+    if (given == InSpace && dimensions == 2) return wanted + ", " + std::string(why_in_plane);
+    return wanted;
+  }
 };
 
 template <class T>

@@ -21,7 +21,7 @@ struct Apparatus {
 };
 
 /// Time at which the piston reaches a strain, s.
-double time_of_strain(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+double time_of_strain(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
                       const WallMotion& piston, double strain);
 
 /// What does not depend on the rank.
@@ -45,7 +45,7 @@ struct Layout {
   std::optional<LoadCellBox> load_cell;  ///< in locations from the specimen's lower left corner
 };
 
-Layout make_layout(const scene::Scene& scene, const micrograph::SpecimenModel& specimen);
+Layout make_layout(const scene::Scene& scene, const micrograph::Specimen<2>& specimen);
 
 /// The rank's share of the bodies, and conditions. Bodies: one per deformable material that has
 /// particles, then the load cell.
@@ -56,7 +56,7 @@ struct Model {
   std::unique_ptr<Transfer<2>> transfer;
 };
 
-Model make_model(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
+Model make_model(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
                  const Layout& layout, const Decomposition<2>& decomposition);
 
 /// Law of a scene's material. A new law is one file and one line there.
@@ -70,7 +70,6 @@ std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int 
 PartitionRules<2> partition_rules(const scene::Scene& scene);
 /// Balanced by the particles at the start. Collective.
 Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene,
-                                    const micrograph::SpecimenModel& specimen,
-                                    const Layout& layout);
+                                    const micrograph::Specimen<2>& specimen, const Layout& layout);
 
 }  // namespace mpm

@@ -1,31 +1,46 @@
 #include <mpm/micrograph/pieces.hpp>
 
+#include <mutex>
+
+#include "built_specimen.hpp"
 #include <gmock/gmock.h>
 
-namespace mpm::micrograph {
+namespace mpm::micrograph::test {
 namespace {
 
 using testing::ElementsAre;
 
-/// '.' is void, '0', '1', ... a material; the bottom row first.
-Lattice lattice_of(const std::vector<std::string>& rows)
+using Rows = std::vector<std::string>;
+
+/// '.' is void, '0', '1', ... a material; the bottom row first. The part's slab of them.
+Lattice<2> lattice_of(const Rows& rows, const Share& share = {})
 {
-  Lattice lattice;
-  lattice.nx = int(rows.front().size());
-  lattice.ny = int(rows.size());
-  for (const std::string& row : rows)
-    for (const char c : row)
-      lattice.material.push_back(c == '.' ? Lattice::empty : std::int8_t(c - '0'));
+  Lattice<2> lattice;
+  lattice.count = {LocalIndex(rows.front().size()), LocalIndex(rows.size())};
+  lattice.part = slab(IndexBox<2>{{0, 0}, lattice.count}, share.part, share.parts);
+  for (LocalIndex j = lattice.part.lower[1]; j < lattice.part.upper[1]; ++j)
+    for (const char c : rows[std::size_t(j)])
+      lattice.material.push_back(c == '.' ? Lattice<2>::empty : std::int8_t(c - '0'));
   return lattice;
 }
 
-std::vector<std::string> rows_of(const Lattice& lattice)
+/// What the rules leave; the same on every part, and for any number of them.
+Rows kept(const Rows& rows, const PieceRules& rules)
 {
-  std::vector<std::string> rows(std::size_t(lattice.ny));
-  for (int j = 0; j < lattice.ny; ++j)
-    for (int i = 0; i < lattice.nx; ++i)
-      rows[std::size_t(j)] += lattice(i, j) == Lattice::empty ? '.' : char('0' + lattice(i, j));
-  return rows;
+  Rows left;
+  for (const int parts : {1, 2, 3, 5, 8}) {
+    on_parts(parts, [&](const Share& share) {
+      Rows found = rows;
+      for (const Run& run : removed_runs(lattice_of(rows, share), rules, share))
+        for (LocalIndex i = run.begin; i < run.end; ++i)
+          found[std::size_t(run.row)][std::size_t(i)] = '.';
+      static std::mutex one_at_a_time;
+      const std::lock_guard lock(one_at_a_time);
+      if (left.empty()) left = found;
+      EXPECT_EQ(found, left) << "part " << share.part << " of " << parts;
+    });
+  }
+  return left;
 }
 
 TEST(Pieces, ACommonCornerDoesNotConnect)
@@ -75,30 +90,41 @@ TEST(Pieces, OfAnEmptyLatticeAreNone)
 
 TEST(Specks, PiecesWithFewerLocationsVanishAndThoseWithAsManyStay)
 {
-  Lattice lattice = lattice_of({"00..1.1",  //
-                                "..0.1.1",  //
-                                "......1"});
-  EXPECT_EQ(remove_specks(lattice, 2), 1);
-  EXPECT_THAT(rows_of(lattice), ElementsAre("00..1.1", "....1.1", "......1"));
-  EXPECT_EQ(remove_specks(lattice, 3), 4);
-  EXPECT_THAT(rows_of(lattice), ElementsAre("......1", "......1", "......1"));
+  const Rows rows{"00..1.1",  //
+                  "..0.1.1",  //
+                  "......1"};
+  EXPECT_THAT(kept(rows, {2}), ElementsAre("00..1.1", "....1.1", "......1"));
+  EXPECT_THAT(kept(rows, {3}), ElementsAre("......1", "......1", "......1"));
 }
 
 TEST(LargestPiece, StaysAlone)
 {
-  Lattice lattice = lattice_of({"00.1",  //
-                                "...1",  //
-                                "0..1"});
-  EXPECT_EQ(keep_largest_piece(lattice), 3);
-  EXPECT_THAT(rows_of(lattice), ElementsAre("...1", "...1", "...1"));
+  EXPECT_THAT(kept({"00.1",  //
+                    "...1",  //
+                    "0..1"},
+                   {0, true}),
+              ElementsAre("...1", "...1", "...1"));
 }
 
 TEST(LargestPiece, FirstOfEquals)
 {
-  Lattice lattice = lattice_of({"0.0"});
-  EXPECT_EQ(keep_largest_piece(lattice), 1);
-  EXPECT_THAT(rows_of(lattice), ElementsAre("0.."));
+  EXPECT_THAT(kept({"0.0"}, {0, true}), ElementsAre("0.."));
+  EXPECT_THAT(kept({"..0", "..0", "...", "0..", "0.."}, {0, true}),
+              ElementsAre("..0", "..0", "...", "...", "..."));
+}
+
+TEST(LargestPiece, OfArmsThatMeetInAnotherPart)
+{
+  // Every row of the comb is in a part of its own when there are five; the arms are joined at the
+  // top only, and the bar in the middle is the largest piece of its part.
+  EXPECT_THAT(kept({"0.0.0...",  //
+                    "0.0.0...",  //
+                    "0.0.0.00",  //
+                    "0.0.0...",  //
+                    "00000..."},
+                   {3, true}),
+              ElementsAre("0.0.0...", "0.0.0...", "0.0.0...", "0.0.0...", "00000..."));
 }
 
 }  // namespace
-}  // namespace mpm::micrograph
+}  // namespace mpm::micrograph::test

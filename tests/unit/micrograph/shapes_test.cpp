@@ -1,9 +1,7 @@
-#include <mpm/micrograph/geometry.hpp>
-#include <mpm/micrograph/specimen.hpp>
-
 #include <cmath>
 #include <numbers>
 
+#include "built_specimen.hpp"
 #include "image_files.hpp"
 #include <gmock/gmock.h>
 
@@ -15,7 +13,7 @@ using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-scene::Scene scene_of(std::array<double, 2> size, std::array<int, 2> cells,
+scene::Scene scene_of(scene::PerAxis<double> size, scene::PerAxis<int> cells,
                       std::vector<scene::Shape> shapes)
 {
   scene::Scene scene;
@@ -30,29 +28,31 @@ scene::Scene scene_of(std::array<double, 2> size, std::array<int, 2> cells,
 
 double density_of(const scene::Scene& scene)
 {
-  return build_specimen(scene).densities[0].value;
+  return built(scene).densities()[0].value;
 }
 
 TEST(Shapes, ALocationIsFilledWhereItsCentreLiesInside)
 {
-  const auto model =
-      build_specimen(scene_of({4, 2}, {4, 2}, {{scene::Box{{0.6, 0.4}, {2.6, 1.4}}, "soft"}}));
+  const auto specimen =
+      built(scene_of({4, 2}, {4, 2}, {{scene::Box{{0.6, 0.4}, {2.6, 1.4}}, "soft"}}));
+  const Lattice<2> lattice = specimen.lattice(specimen.whole());
   // Centres 0.5, 1.5, 2.5, 3.5 and 0.5, 1.5; only 1.5, 2.5 and 0.5 are inside.
-  EXPECT_THAT(model.lattice.material, ElementsAre(-1, 0, 0, -1, -1, -1, -1, -1));
-  EXPECT_THAT(model.lattice.shape, ElementsAre(-1, 0, 0, -1, -1, -1, -1, -1));
+  EXPECT_THAT(lattice.material, ElementsAre(-1, 0, 0, -1, -1, -1, -1, -1));
+  EXPECT_THAT(lattice.shape, ElementsAre(-1, 0, 0, -1, -1, -1, -1, -1));
 }
 
 TEST(Shapes, LaterOnesOverrideAndVoidCuts)
 {
-  const auto model = build_specimen(scene_of({5, 1}, {5, 1},
-                                             {{scene::Box{{0, 0}, {5, 1}}, "soft"},
-                                              {scene::Box{{1, 0}, {4, 1}}, "hard"},
-                                              {scene::Box{{2, 0}, {3, 1}}, "void"}}));
-  EXPECT_THAT(model.lattice.material, ElementsAre(0, 1, -1, 1, 0));
-  EXPECT_THAT(model.lattice.shape, ElementsAre(0, 1, -1, 1, 0));
-  EXPECT_EQ(model.particles(), 4);
-  EXPECT_DOUBLE_EQ(model.densities[0].value, 0.8);
-  EXPECT_DOUBLE_EQ(model.densities[0].bulk_density, (2 * 1000 + 2 * 3000) / 5.0);
+  const auto specimen = built(scene_of({5, 1}, {5, 1},
+                                       {{scene::Box{{0, 0}, {5, 1}}, "soft"},
+                                        {scene::Box{{1, 0}, {4, 1}}, "hard"},
+                                        {scene::Box{{2, 0}, {3, 1}}, "void"}}));
+  const Lattice<2> lattice = specimen.lattice(specimen.whole());
+  EXPECT_THAT(lattice.material, ElementsAre(0, 1, -1, 1, 0));
+  EXPECT_THAT(lattice.shape, ElementsAre(0, 1, -1, 1, 0));
+  EXPECT_EQ(specimen.particles(), 4);
+  EXPECT_DOUBLE_EQ(specimen.densities()[0].value, 0.8);
+  EXPECT_DOUBLE_EQ(specimen.densities()[0].bulk_density, (2 * 1000 + 2 * 3000) / 5.0);
 }
 
 TEST(Shapes, ShapesMayReachOutOfTheSpecimen)
@@ -63,10 +63,10 @@ TEST(Shapes, ShapesMayReachOutOfTheSpecimen)
 TEST(Shapes, NeighbouringBoxesShareNoLocation)
 {
   // The common edge runs through centres.
-  const auto model = build_specimen(
-      scene_of({4, 1}, {4, 1},
-               {{scene::Box{{1.5, 0}, {4, 1}}, "hard"}, {scene::Box{{0, 0}, {1.5, 1}}, "soft"}}));
-  EXPECT_THAT(model.lattice.material, ElementsAre(0, 1, 1, 1));
+  EXPECT_THAT(materials_of(scene_of({4, 1}, {4, 1},
+                                    {{scene::Box{{1.5, 0}, {4, 1}}, "hard"},
+                                     {scene::Box{{0, 0}, {1.5, 1}}, "soft"}})),
+              ElementsAre(0, 1, 1, 1));
 }
 
 TEST(Shapes, DiscHasTheAreaOfACircle)
@@ -85,9 +85,9 @@ TEST(Shapes, PolygonFollowsTheEvenOddRule)
     const double angle = (90 + 144 * k) * std::numbers::pi / 180;
     star.vertices.push_back({std::cos(angle), std::sin(angle)});
   }
-  EXPECT_FALSE(contains(star, {0, 0}));
-  EXPECT_TRUE(contains(star, {0, 0.8}));
-  EXPECT_FALSE(contains(star, {0.8, 0.8}));
+  EXPECT_FALSE(star.contains({0, 0}));
+  EXPECT_TRUE(star.contains({0, 0.8}));
+  EXPECT_FALSE(star.contains({0.8, 0.8}));
 }
 
 TEST(Shapes, PolygonsThatShareASideShareNoPointAndLeaveNoneOut)
@@ -96,8 +96,8 @@ TEST(Shapes, PolygonsThatShareASideShareNoPointAndLeaveNoneOut)
   const scene::Polygon lower{{{0, 0}, {1, 0}, {1, 1}}}, upper{{{1, 1}, {0, 1}, {0, 0}}};
   for (int j = 0; j < 10; ++j)
     for (int i = 0; i < 10; ++i) {
-      const Point point{(i + 0.5) / 10, (j + 0.5) / 10};
-      EXPECT_NE(contains(lower, point), contains(upper, point)) << i << ' ' << j;
+      const scene::Point<2> point{(i + 0.5) / 10, (j + 0.5) / 10};
+      EXPECT_NE(lower.contains(point), upper.contains(point)) << i << ' ' << j;
     }
 }
 
@@ -107,14 +107,14 @@ TEST(Honeycomb, HasItsHexagonsSidesWhereTheyBelong)
 {
   const scene::Honeycomb comb{{0, 0}, {10, 10}, 1, 0.1};
   const double apothem = sqrt3 / 2;
-  EXPECT_FALSE(contains(comb, {0.01, 0.01}));           // centre of the first hexagon
-  EXPECT_TRUE(contains(comb, {apothem, 0}));            // middle of its right side
-  EXPECT_TRUE(contains(comb, {apothem - 0.049, 0.3}));  // within half the wall
-  EXPECT_FALSE(contains(comb, {apothem - 0.051, 0.3}));
-  EXPECT_TRUE(contains(comb, {apothem, 0.5}));       // corner where three walls meet
-  EXPECT_FALSE(contains(comb, {apothem, 1.5}));      // centre of the hexagon above
-  EXPECT_TRUE(contains(comb, {apothem / 2, 0.75}));  // middle of the slanted side
-  EXPECT_FALSE(contains(comb, {10.1, 0.5}));         // outside the box
+  EXPECT_FALSE(comb.contains({0.01, 0.01}));           // centre of the first hexagon
+  EXPECT_TRUE(comb.contains({apothem, 0}));            // middle of its right side
+  EXPECT_TRUE(comb.contains({apothem - 0.049, 0.3}));  // within half the wall
+  EXPECT_FALSE(comb.contains({apothem - 0.051, 0.3}));
+  EXPECT_TRUE(comb.contains({apothem, 0.5}));       // corner where three walls meet
+  EXPECT_FALSE(comb.contains({apothem, 1.5}));      // centre of the hexagon above
+  EXPECT_TRUE(comb.contains({apothem / 2, 0.75}));  // middle of the slanted side
+  EXPECT_FALSE(comb.contains({10.1, 0.5}));         // outside the box
 }
 
 TEST(Honeycomb, HasTheDensityOfRegularHexagons)
@@ -124,21 +124,22 @@ TEST(Honeycomb, HasTheDensityOfRegularHexagons)
   // of 1.
   for (const auto [wall, density] : {std::array{0.1829, 0.200}, {0.3949, 0.404}, {0.9402, 0.791}}) {
     const scene::Honeycomb comb{{0, 0}, {2 * sqrt3, 6}, 1, wall};
-    EXPECT_NEAR(relative_density(comb), density, 5e-4);
+    EXPECT_NEAR(comb.relative_density(), density, 5e-4);
     EXPECT_NEAR(density_of(scene_of({2 * sqrt3, 6}, {347, 601}, {{comb, "soft"}})),
-                relative_density(comb), 5e-3);
+                comb.relative_density(), 5e-3);
   }
 }
 
 TEST(Honeycomb, IsAMirrorImageOfItselfAboutItsEdges)
 {
-  const auto model = build_specimen(scene_of(
+  const auto specimen = built(scene_of(
       {2 * sqrt3, 6}, {100, 173}, {{scene::Honeycomb{{0, 0}, {2 * sqrt3, 6}, 1, 0.3}, "soft"}}));
+  const Lattice<2> lattice = specimen.lattice(specimen.whole());
   int differences = 0;
   for (int j = 0; j < 173; ++j)
     for (int i = 0; i < 100; ++i) {
-      differences += model.lattice(i, j) != model.lattice(99 - i, j);
-      differences += model.lattice(i, j) != model.lattice(i, 172 - j);
+      differences += lattice({i, j}) != lattice({99 - i, j});
+      differences += lattice({i, j}) != lattice({i, 172 - j});
     }
   EXPECT_EQ(differences, 0);
 }
@@ -147,22 +148,20 @@ TEST(Honeycomb, IsAMirrorImageOfItselfAboutItsEdges)
 
 std::string error_of(scene::Shape shape)
 {
-  return message_of([&] { build_specimen(scene_of({1, 1}, {10, 10}, {std::move(shape)})); });
+  return message_of([&] { built(scene_of({1, 1}, {10, 10}, {std::move(shape)})); });
 }
 
 TEST(ShapeMistakes, AreNamedWithTheirPlace)
 {
   EXPECT_EQ(error_of({scene::Box{{0, 0.5}, {1, 0.5}}, "soft"}),
-            "specimen.shapes[0]: lower[1] is 0.5 m and upper[1] is 0.5 m (lower must be below "
-            "upper).");
-  EXPECT_EQ(error_of({scene::Disc{{0, 0}, 0}, "soft"}),
-            "specimen.shapes[0]: radius is 0 m (must be above 0).");
+            "specimen.shapes[0].box.upper: must be above lower along y.");
   EXPECT_EQ(error_of({scene::Polygon{{{0, 0}, {1, 1}}}, "soft"}),
-            "specimen.shapes[0]: vertices are 2 (a polygon needs at least 3).");
-  EXPECT_EQ(error_of({scene::Honeycomb{{0, 0}, {1, 1}, 0, 0.1}, "soft"}),
-            "specimen.shapes[0]: cell_side is 0 m (must be above 0).");
-  EXPECT_THAT(error_of({scene::Honeycomb{{0, 0}, {1, 1}, 0.1, 0.2}, "soft"}),
-              HasSubstr("wall_thickness is 0.2 m (must lie between 0 and sqrt(3) cell_side"));
+            "specimen.shapes[0].polygon.vertices: a polygon has at least 3 vertices.");
+  EXPECT_EQ(error_of({scene::Honeycomb{{0, 0}, {1, 1}, 0.1, 0.2}, "soft"}),
+            "specimen.shapes[0].honeycomb.wall_thickness: must be below sqrt(3) cell_side, or no "
+            "lumen is left.");
+  EXPECT_EQ(error_of({scene::Sphere{{0, 0, 0}, 1}, "soft"}),
+            "specimen.shapes[0] is a sphere, which has no place in the plane.");
   EXPECT_THAT(error_of({scene::Box{{0.01, 0.01}, {0.04, 0.04}}, "soft"}),
               HasSubstr("specimen.shapes[0] contains no particle location"));
   EXPECT_THAT(error_of({scene::Box{{0, 0}, {1, 1}}, "void"}), HasSubstr("no location is filled"));
@@ -180,9 +179,9 @@ TEST(Shapes, TheOnlyMaterialNeedsNoName)
 {
   scene::Scene scene = scene_of({1, 1}, {2, 2}, {{scene::Box{{0, 0}, {1, 1}}, ""}});
   scene.materials.resize(1);
-  EXPECT_THAT(build_specimen(scene).lattice.material, Each(0));
+  EXPECT_THAT(materials_of(scene), Each(0));
   scene.materials.clear();
-  EXPECT_THAT(message_of([&] { build_specimen(scene); }), HasSubstr("materials is empty"));
+  EXPECT_THAT(message_of([&] { built(scene); }), HasSubstr("materials is empty"));
 }
 
 }  // namespace

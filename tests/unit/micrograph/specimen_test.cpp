@@ -1,7 +1,7 @@
-#include <mpm/micrograph/image.hpp>
-#include <mpm/micrograph/lattice.hpp>
+#include <mpm/core/error.hpp>
 #include <mpm/micrograph/preview.hpp>
 
+#include "built_specimen.hpp"
 #include "image_files.hpp"
 #include <gmock/gmock.h>
 
@@ -13,8 +13,9 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Scenes of a picture with pixels of 1 um, one location per pixel unless changed.
-class Specimen : public testing::Test {
+/// Scenes of a picture with pixels of 1 um, one location per pixel unless changed. Locations are
+/// wall by the pixels' threshold.
+class SpecimenOfPicture : public testing::Test {
  protected:
   scene::Scene scene_of(const Rows& rows)
   {
@@ -23,23 +24,24 @@ class Specimen : public testing::Test {
     scene.specimen.micrograph.emplace();
     scene.specimen.micrograph->file = directory_.write("picture.bmp", gray_bmp(rows));
     scene.specimen.micrograph->pixel_size = {1e-6, 1e-6};
+    scene.specimen.micrograph->sampling = scene::Sampling::threshold;
     scene.grid.cells = {int(rows.front().size()), int(rows.size())};
     scene.grid.particles_per_cell = 1;
     return scene;
   }
   static std::string error_of(const scene::Scene& scene)
   {
-    return message_of([&] { build_specimen(scene); });
+    return message_of([&] { built(scene); });
   }
   static std::vector<int> filled(const scene::Scene& scene)
   {
-    const Lattice lattice = build_specimen(scene).lattice;
-    return {lattice.material.begin(), lattice.material.end()};
+    const std::vector<std::int8_t> materials = materials_of(scene);
+    return {materials.begin(), materials.end()};
   }
   TemporaryDirectory directory_;
 };
 
-TEST_F(Specimen, TopRowOfTheImageIsTheTopOfTheSpecimen)
+TEST_F(SpecimenOfPicture, TopRowOfTheImageIsTheTopOfTheSpecimen)
 {
   EXPECT_THAT(filled(scene_of({{200, 0, 0},  //
                                {0, 0, 150}})),
@@ -47,7 +49,7 @@ TEST_F(Specimen, TopRowOfTheImageIsTheTopOfTheSpecimen)
                           0, -1, -1));
 }
 
-TEST_F(Specimen, DarkWallsAreTheComplementOfBrightOnes)
+TEST_F(SpecimenOfPicture, DarkWallsAreTheComplementOfBrightOnes)
 {
   scene::Scene scene = scene_of({{149, 150, 151}});
   EXPECT_THAT(filled(scene), ElementsAre(-1, 0, 0));
@@ -55,7 +57,7 @@ TEST_F(Specimen, DarkWallsAreTheComplementOfBrightOnes)
   EXPECT_THAT(filled(scene), ElementsAre(0, -1, -1));
 }
 
-TEST_F(Specimen, CropRotationAndFlipsComeInThisOrder)
+TEST_F(SpecimenOfPicture, CropRotationAndFlipsComeInThisOrder)
 {
   scene::Scene scene = scene_of({{200, 9, 9, 9},  //
                                  {9, 200, 200, 9},
@@ -82,30 +84,30 @@ TEST_F(Specimen, CropRotationAndFlipsComeInThisOrder)
 
 // ------------------------------------------------------------------------------------- size
 
-TEST_F(Specimen, ImageSizeIsThatOfTheWholeImageAndTurnsWithIt)
+TEST_F(SpecimenOfPicture, ImageSizeIsThatOfTheWholeImageAndTurnsWithIt)
 {
   scene::Scene scene = scene_of(Rows(10, std::vector<int>(20, 200)));
   scene::Micrograph& micrograph = *scene.specimen.micrograph;
   micrograph.pixel_size.reset();
   micrograph.image_size = {0.832e-3, 0.541e-3};
-  EXPECT_EQ(build_specimen(scene).size, (std::array{0.832e-3, 0.541e-3}));
+  EXPECT_EQ(built(scene).size(), Vec<2>(0.832e-3, 0.541e-3));
   micrograph.rotate = 270;
-  EXPECT_EQ(build_specimen(scene).size, (std::array{0.541e-3, 0.832e-3}));
+  EXPECT_EQ(built(scene).size(), Vec<2>(0.541e-3, 0.832e-3));
   micrograph.crop = {0, 0, 5, 10};
-  EXPECT_EQ(build_specimen(scene).size, (std::array{0.541e-3, 0.25 * 0.832e-3}));
+  EXPECT_EQ(built(scene).size(), Vec<2>(0.541e-3, 0.25 * 0.832e-3));
 }
 
-TEST_F(Specimen, PixelSizeCountsThePixelsOfTheCrop)
+TEST_F(SpecimenOfPicture, PixelSizeCountsThePixelsOfTheCrop)
 {
   scene::Scene scene = scene_of(Rows(10, std::vector<int>(20, 200)));
   scene.specimen.micrograph->pixel_size = {2e-6, 3e-6};
   scene.specimen.micrograph->crop = {2, 3, 4, 5};
-  const auto [width, height] = build_specimen(scene).size;
-  EXPECT_DOUBLE_EQ(width, 8e-6);
-  EXPECT_DOUBLE_EQ(height, 15e-6);
+  const Vec<2> size = built(scene).size();
+  EXPECT_DOUBLE_EQ(size[0], 8e-6);
+  EXPECT_DOUBLE_EQ(size[1], 15e-6);
 }
 
-TEST_F(Specimen, SizeMustBeKnownOnceAndAboveZero)
+TEST_F(SpecimenOfPicture, SizeMustBeKnownOnceAndAboveZero)
 {
   scene::Scene scene = scene_of({{200}});
   scene::Micrograph& micrograph = *scene.specimen.micrograph;
@@ -120,85 +122,26 @@ TEST_F(Specimen, SizeMustBeKnownOnceAndAboveZero)
                                  "specimen.pixel_size.");
 }
 
-// ------------------------------------------------------------------------------------- grid
-
-TEST(CellCounts, FoundingPapersLatticeHas58200Locations)
-{
-  scene::Grid grid;
-  grid.cells = {150, 97};
-  const auto cells = cell_counts(grid, {0.832e-3, 0.541e-3});
-  const Lattice lattice = empty_lattice(cells, 2);
-  EXPECT_EQ(lattice.nx, 300);
-  EXPECT_EQ(lattice.ny, 194);
-  EXPECT_EQ(lattice.material.size(), 58200u);
-}
-
-TEST(CellCounts, SpacingIsRoundedPerAxisToWholeCells)
-{
-  scene::Grid grid;
-  grid.spacing = {3e-6, 4e-6};
-  EXPECT_EQ(cell_counts(grid, {100e-6, 90e-6}), (std::array{33, 23}));  // 33.3 and 22.5
-  grid.spacing = {1, 1};
-  EXPECT_EQ(cell_counts(grid, {100e-6, 90e-6}), (std::array{1, 1}));
-}
-
-TEST(CellCounts, DefaultIs150AlongXAndNearlySquare)
-{
-  EXPECT_EQ(cell_counts({}, {1.5e-3, 0.806e-3}), (std::array{150, 81}));
-  EXPECT_EQ(cell_counts({}, {1e-3, 4e-3}), (std::array{150, 600}));
-}
-
-TEST(CellCounts, MistakesAreNamed)
-{
-  scene::Grid grid;
-  grid.cells = {150, 0};
-  EXPECT_EQ(message_of([&] {
-              cell_counts(grid, {1, 1});
-            }),
-            "grid.cells[1] is 0 (must be at least 1).");
-  grid.spacing = {1e-6, 1e-6};
-  EXPECT_THAT(message_of([&] { cell_counts(grid, {1, 1}); }), HasSubstr("both given"));
-  grid.cells.reset();
-  grid.spacing = {1e-12, 1};
-  EXPECT_EQ(message_of([&] {
-              cell_counts(grid, {1, 1});
-            }),
-            "grid.spacing[0] is 1e-12 m, which makes 1e+12 cells along x. Give a coarser one.");
-  grid.spacing = {1, -1};
-  EXPECT_EQ(message_of([&] {
-              cell_counts(grid, {1, 1});
-            }),
-            "grid.spacing[1] is -1 m (must be above 0).");
-  EXPECT_EQ(message_of([&] {
-              empty_lattice({1, 1}, 0);
-            }),
-            "grid.particles_per_cell is 0 (must be at least 1).");
-  EXPECT_THAT(message_of([&] {
-                empty_lattice({100000, 100000}, 2);
-              }),
-              HasSubstr("4e+10 in all (at most 2147483647). Give fewer."));
-}
-
 // ------------------------------------------------------------------------------------- wall
 
-TEST_F(Specimen, LocationsSmallerThanPixelsInheritTheirWall)
+TEST_F(SpecimenOfPicture, LocationsSmallerThanPixelsInheritTheirWall)
 {
   scene::Scene scene = scene_of({{200, 10}});
   scene.grid.particles_per_cell = 2;
   EXPECT_THAT(filled(scene), ElementsAre(0, 0, -1, -1, 0, 0, -1, -1));
 }
 
-TEST_F(Specimen, OtsuPartsThePixelsOfTheCrop)
+TEST_F(SpecimenOfPicture, OtsuPartsThePixelsOfTheCrop)
 {
   scene::Scene scene = scene_of({{60, 60, 180, 0, 0, 255}});
   scene.specimen.micrograph->threshold_rule = scene::ThresholdRule::otsu;
   scene.specimen.micrograph->crop = {0, 0, 3, 1};
   scene.grid.cells = {3, 1};
-  EXPECT_EQ(build_specimen(scene).threshold, 120);  // of 61 ... 180
+  EXPECT_EQ(built(scene).picture()->threshold, 120);  // of 61 ... 180
   EXPECT_THAT(filled(scene), ElementsAre(-1, -1, 0));
 }
 
-TEST_F(Specimen, TargetRelativeDensityIsMetAndItsThresholdReproducesIt)
+TEST_F(SpecimenOfPicture, TargetRelativeDensityIsMetAndItsThresholdReproducesIt)
 {
   Rows rows(30, std::vector<int>(30));
   for (int pixel = 0; pixel < 900; ++pixel)
@@ -211,15 +154,15 @@ TEST_F(Specimen, TargetRelativeDensityIsMetAndItsThresholdReproducesIt)
   for (const auto wall : {scene::Wall::bright, scene::Wall::dark}) {
     micrograph.wall = wall;
     micrograph.threshold_rule = scene::ThresholdRule::target_relative_density;
-    const SpecimenModel model = build_specimen(scene);
-    EXPECT_NEAR(model.densities[0].value, 0.404, 1.0 / 400);
+    const std::vector<std::int8_t> aimed = materials_of(scene);
+    EXPECT_NEAR(built(scene).densities()[0].value, 0.404, 1.0 / 400);
+    micrograph.threshold = built(scene).picture()->threshold;
     micrograph.threshold_rule = scene::ThresholdRule::value;
-    micrograph.threshold = model.threshold;
-    EXPECT_EQ(build_specimen(scene).lattice.material, model.lattice.material);
+    EXPECT_EQ(materials_of(scene), aimed);
   }
 }
 
-TEST_F(Specimen, NoWallIsAnErrorThatTellsTheGrayRange)
+TEST_F(SpecimenOfPicture, NoWallIsAnErrorThatTellsTheGrayRange)
 {
   scene::Scene scene = scene_of({{20, 90}});
   scene.file = "inputs/dark.yaml";
@@ -234,7 +177,7 @@ TEST_F(Specimen, NoWallIsAnErrorThatTellsTheGrayRange)
                        "bright."));
 }
 
-TEST_F(Specimen, FileErrorsBeginWithTheSceneAndNameTheImage)
+TEST_F(SpecimenOfPicture, FileErrorsBeginWithTheSceneAndNameTheImage)
 {
   scene::Scene scene = scene_of({{200}});
   scene.file = "inputs/scene.yaml";
@@ -244,7 +187,7 @@ TEST_F(Specimen, FileErrorsBeginWithTheSceneAndNameTheImage)
                          ": cannot be opened (No such file or directory)."));
 }
 
-TEST_F(Specimen, ImageAndShapesExcludeEachOther)
+TEST_F(SpecimenOfPicture, ImageAndShapesExcludeEachOther)
 {
   scene::Scene scene = scene_of({{200}});
   scene.specimen.shapes = {{scene::Box{{0, 0}, {1, 1}}, ""}};
@@ -257,19 +200,19 @@ TEST_F(Specimen, ImageAndShapesExcludeEachOther)
 
 // ------------------------------------------------------------------------------------- cleaning
 
-TEST_F(Specimen, SpecksAndLoosePiecesAreRemovedAndCounted)
+TEST_F(SpecimenOfPicture, SpecksAndLoosePiecesAreRemovedAndCounted)
 {
   scene::Scene scene = scene_of({{200, 0, 200, 200, 0, 200, 200, 200}});
   scene::Micrograph& micrograph = *scene.specimen.micrograph;
-  EXPECT_EQ(build_specimen(scene).removed, 0);
+  EXPECT_EQ(built(scene).picture()->removed, 0);
   micrograph.remove_specks = 2;
-  EXPECT_EQ(build_specimen(scene).removed, 1);
+  EXPECT_EQ(built(scene).picture()->removed, 1);
   EXPECT_THAT(filled(scene), ElementsAre(-1, -1, 0, 0, -1, 0, 0, 0));
   micrograph.remove_unconnected = true;
-  const SpecimenModel model = build_specimen(scene);
-  EXPECT_EQ(model.removed, 3);
-  EXPECT_EQ(model.particles(), 3);
-  EXPECT_EQ(model.densities[0].value, 3.0 / 8);  // of what is left
+  const Specimen<2> specimen = built(scene);
+  EXPECT_EQ(specimen.picture()->removed, 3);
+  EXPECT_EQ(specimen.particles(), 3);
+  EXPECT_EQ(specimen.densities()[0].value, 3.0 / 8);  // of what is left
   micrograph.remove_specks = 4;
   EXPECT_THAT(error_of(scene), StartsWith("no cell wall left: every piece has fewer than "
                                           "specimen.remove_specks = 4 locations."));
@@ -277,19 +220,21 @@ TEST_F(Specimen, SpecksAndLoosePiecesAreRemovedAndCounted)
 
 // ------------------------------------------------------------------------------------- bands
 
-TEST_F(Specimen, BandsMapGrayRangesToMaterials)
+TEST_F(SpecimenOfPicture, BandsMapGrayRangesToMaterials)
 {
   scene::Scene scene = scene_of({{99, 100, 179, 180, 255}});
   scene.materials = {scene::Material{.name = "lamella", .density = 1400},
                      scene::Material{.name = "wall", .density = 1500}};
   scene.specimen.micrograph->bands = {{180, 256, "wall"}, {100, 180, "lamella"}};
-  const SpecimenModel model = build_specimen(scene);
-  EXPECT_THAT(model.lattice.material, ElementsAre(-1, 0, 0, 1, 1));
-  EXPECT_DOUBLE_EQ(model.densities[0].bulk_density, (2 * 1400 + 2 * 1500) / 5.0);
-  EXPECT_EQ(model.threshold, 0);
+  EXPECT_THAT(materials_of(scene), ElementsAre(-1, 0, 0, 1, 1));
+  const Specimen<2> specimen = built(scene);
+  EXPECT_THAT(specimen.particles_of_material(), ElementsAre(2, 2));
+  EXPECT_DOUBLE_EQ(specimen.densities()[0].bulk_density, (2 * 1400 + 2 * 1500) / 5.0);
+  EXPECT_EQ(specimen.picture()->threshold, 0);
+  EXPECT_EQ(specimen.picture()->density, 0.8);
 }
 
-TEST_F(Specimen, BandMistakesAreNamed)
+TEST_F(SpecimenOfPicture, BandMistakesAreNamed)
 {
   scene::Scene scene = scene_of({{99}});
   auto& bands = scene.specimen.micrograph->bands;
@@ -309,12 +254,12 @@ TEST_F(Specimen, BandMistakesAreNamed)
 
 // ------------------------------------------------------------------------------------- windows
 
-TEST_F(Specimen, WindowsCountTheLocationsWhoseCentresTheyHold)
+TEST_F(SpecimenOfPicture, WindowsCountTheLocationsWhoseCentresTheyHold)
 {
   scene::Scene scene = scene_of({{0, 0, 200, 200},  //
                                  {0, 200, 200, 200}});
   scene.specimen.windows = {{"left", {0, 0.5}, {0, 1}}, {"top right", {0.5, 1}, {0.5, 1}}};
-  const auto densities = build_specimen(scene).densities;
+  const auto densities = built(scene).densities();
   ASSERT_EQ(densities.size(), 3u);
   EXPECT_EQ(densities[0].window, "");
   EXPECT_EQ(densities[0].value, 5.0 / 8);
@@ -324,7 +269,7 @@ TEST_F(Specimen, WindowsCountTheLocationsWhoseCentresTheyHold)
   EXPECT_EQ(densities[2].value, 1);
 }
 
-TEST_F(Specimen, WindowThatHoldsNothingIsAnError)
+TEST_F(SpecimenOfPicture, WindowThatHoldsNothingIsAnError)
 {
   scene::Scene scene = scene_of({{200, 200}});
   scene.specimen.windows = {{"late", {0.9, 0.1}, {0, 1}}};
@@ -335,33 +280,41 @@ TEST_F(Specimen, WindowThatHoldsNothingIsAnError)
 
 // ------------------------------------------------------------------------------------- preview
 
-TEST_F(Specimen, PreviewShowsWallWhiteAndVoidBlackTheRightWayUp)
+TEST_F(SpecimenOfPicture, PreviewShowsWallWhiteAndVoidBlackTheRightWayUp)
 {
   const Rows picture{{200, 0, 0},  //
                      {0, 0, 200}};
   const auto file = directory_ / "preview.png";
-  write_preview(build_specimen(scene_of(picture)), file);
+  write_preview(built(scene_of(picture)), file);
   const GrayImage preview = read_image(file);
   EXPECT_EQ(preview.width, 3);
   EXPECT_THAT(preview.gray, ElementsAre(255, 0, 0, 0, 0, 255));
 }
 
-TEST_F(Specimen, PreviewTellsMaterialsApart)
+TEST_F(SpecimenOfPicture, PreviewTellsMaterialsApart)
 {
-  SpecimenModel model{};
-  model.lattice.nx = 4;
-  model.lattice.ny = 1;
-  model.lattice.material = {-1, 0, 1, 2};
-  write_preview(model, directory_ / "preview.png");
+  scene::Scene scene = scene_of({{0, 100, 200, 150}});
+  scene.materials = {{.name = "a"}, {.name = "b"}, {.name = "c"}};
+  scene.specimen.micrograph->bands = {{90, 110, "a"}, {140, 160, "c"}, {190, 256, "b"}};
+  write_preview(built(scene), directory_ / "preview.png");
   EXPECT_THAT(read_image(directory_ / "preview.png").gray, ElementsAre(0, 255, 176, 96));
 }
 
-TEST_F(Specimen, PreviewThatCannotBeWrittenIsAFileError)
+TEST_F(SpecimenOfPicture, PreviewOfALongLatticeShowsEverySecondLocation)
 {
-  SpecimenModel model{};
-  model.lattice.nx = model.lattice.ny = 1;
-  model.lattice.material = {0};
-  EXPECT_THROW(write_preview(model, directory_ / "nowhere" / "preview.png"), FileError);
+  const scene::Scene scene = scene_of({{0, 0, 200, 0, 200},  //
+                                       {0, 200, 0, 200, 0},
+                                       {200, 0, 0, 0, 200}});
+  write_preview(built(scene), directory_ / "preview.png", 4);
+  const GrayImage preview = read_image(directory_ / "preview.png");
+  EXPECT_EQ(preview.width, 3);
+  EXPECT_THAT(preview.gray, ElementsAre(0, 255, 255, 255, 0, 255));
+}
+
+TEST_F(SpecimenOfPicture, PreviewThatCannotBeWrittenIsAFileError)
+{
+  EXPECT_THROW(write_preview(built(scene_of({{200}})), directory_ / "nowhere" / "preview.png"),
+               FileError);
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(DensityThreshold, HitsEveryTargetWithinHalfALocation)
   for (int i = 0; i < 1000; ++i) means.push_back(i * 619 % 1000 * 0.25);
   for (const Wall wall : {Wall::bright, Wall::dark})
     for (const double target : {0.001, 0.25, 0.4, 0.6074, 0.9996}) {
-      const double threshold = threshold_for_density(means, target, wall);
+      const double threshold = threshold_for_density(means, target, wall, {});
       EXPECT_LE(std::abs(wall_fraction(means, threshold, wall) - target), 0.0005 * (1 + 1e-9))
           << target;
     }
@@ -76,23 +76,23 @@ TEST(DensityThreshold, HitsEveryTargetWithinHalfALocation)
 TEST(DensityThreshold, TakesTheNearerSideOfATie)
 {
   const std::vector<double> means{10, 10, 10, 10, 10, 10, 200, 200, 200, 200};
-  EXPECT_EQ(threshold_for_density(means, 0.5, Wall::bright), 105);  // 0.4 rather than 1
-  EXPECT_EQ(threshold_for_density(means, 0.5, Wall::dark), 105);    // 0.6 rather than 0
-  EXPECT_EQ(threshold_for_density(means, 0.8, Wall::bright), 10);   // 1 rather than 0.4
-  const double everything = threshold_for_density(means, 0.9, Wall::dark);
+  EXPECT_EQ(threshold_for_density(means, 0.5, Wall::bright, {}), 105);  // 0.4 rather than 1
+  EXPECT_EQ(threshold_for_density(means, 0.5, Wall::dark, {}), 105);    // 0.6 rather than 0
+  EXPECT_EQ(threshold_for_density(means, 0.8, Wall::bright, {}), 10);   // 1 rather than 0.4
+  const double everything = threshold_for_density(means, 0.9, Wall::dark, {});
   EXPECT_EQ(wall_fraction(means, everything, Wall::dark), 1);
 }
 
 TEST(DensityThreshold, LiesHalfwayBetweenTheMeansItParts)
 {
-  EXPECT_EQ(threshold_for_density(std::vector<double>{0, 10, 20, 30}, 0.5, Wall::bright), 15);
+  EXPECT_EQ(threshold_for_density(std::vector<double>{0, 10, 20, 30}, 0.5, Wall::bright, {}), 15);
 }
 
 TEST(DensityThreshold, TargetsOutsideZeroToOneAreRefused)
 {
   for (const double target : {0.0, 1.0, -0.1, 40.0})
     EXPECT_THAT(message_of([&] {
-                  threshold_for_density(std::vector<double>{1, 2}, target, Wall::bright);
+                  threshold_for_density(std::vector<double>{1, 2}, target, Wall::bright, {});
                 }),
                 testing::EndsWith("(must lie between 0 and 1, both excluded)."));
 }

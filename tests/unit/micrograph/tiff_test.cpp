@@ -1,5 +1,5 @@
 #include <mpm/micrograph/image.hpp>
-#include <mpm/micrograph/specimen.hpp>
+#include <mpm/micrograph/picture.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -197,28 +197,24 @@ TEST_F(Tiff, PixelSizeComesFromTheResolutionTags)
 TEST_F(Tiff, ResolutionTagsSizeTheSpecimenUnlessTheSceneDoes)
 {
   scene::Scene scene;
-  scene.materials = {scene::Material{}};
-  scene.grid.cells = {2, 2};
   scene.specimen.micrograph.emplace();
   scene::Micrograph& micrograph = *scene.specimen.micrograph;
-  micrograph.threshold = 2;
   micrograph.file =
       write({{.resolution_unit = RESUNIT_CENTIMETER, .pixels_across = 5000, .pixels_down = 4000}});
-  const std::array<double, 2> tagged = build_specimen(scene).size;
+  const std::array<double, 2> tagged = read_picture(scene)->size;
   EXPECT_NEAR(tagged[0], 4e-6, 1e-12);
   EXPECT_NEAR(tagged[1], 5e-6, 1e-12);
   micrograph.image_size = {1e-3, 2e-3};
-  EXPECT_EQ(build_specimen(scene).size, (std::array{1e-3, 2e-3}));
+  EXPECT_EQ(read_picture(scene)->size, (std::array{1e-3, 2e-3}));
 }
 
 TEST_F(Tiff, ResolutionOfAScreenIsNotTakenForAScale)
 {
   scene::Scene scene;
-  scene.materials = {scene::Material{}};
   scene.specimen.micrograph.emplace();
   scene.specimen.micrograph->file =
       write({{.resolution_unit = RESUNIT_INCH, .pixels_across = 96, .pixels_down = 96}});
-  EXPECT_THAT(message_of([&] { build_specimen(scene); }),
+  EXPECT_THAT(message_of([&] { read_picture(scene); }),
               testing::EndsWith(": its resolution tags make a pixel 264.6 um wide, which is a "
                                 "screen's or printer's, not a microscope's. Give "
                                 "specimen.image_size or specimen.pixel_size."));

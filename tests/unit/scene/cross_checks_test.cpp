@@ -60,9 +60,9 @@ TEST_F(CrossChecks, ImpossibleShapes)
     - material: cell_wal
 )" + motion),
               ElementsAre("a.yaml:1:1: specimen.size is missing (shapes lie in a rectangle of this "
-                          "size). Add e.g. size: [1 mm, 1 mm].",
+                          "size, or in a cuboid). Add e.g. size: [1 mm, 1 mm].",
                           "a.yaml:3:41: specimen.shapes[0].box.upper is [0 mm, 1 mm] (must be "
-                          "right of and above lower).",
+                          "above lower along x).",
                           "a.yaml:4:27: specimen.shapes[1].polygon.vertices is [[0 m, 0 m], [1 m, "
                           "0 m]] (a polygon has at least 3 vertices).",
                           "a.yaml:5:90: specimen.shapes[2].honeycomb.wall_thickness is 2 um (must "

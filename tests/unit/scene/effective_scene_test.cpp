@@ -89,6 +89,35 @@ free_motion: {end_time: 1 us}
       "free_motion: {end_time: 1 us}\n");
 }
 
+TEST_F(EffectiveScene, OfShapesInSpaceReadsBackTheSame)
+{
+  expect_round_trip(R"(materials:
+  - {name: wall, law: isotropic, density: 1500 kg/m^3, youngs_modulus: 10.6 GPa, poisson_ratio: 0.3}
+  - {name: ram, law: rigid, velocity: [-1 m/s, 0.5 mm/s, 2 m/s]}
+specimen:
+  size: [1 mm, 0.5 mm, 0.3 mm]
+  shapes:
+    - tubes: {lower: [0 m, 0 m, 0 m], upper: [1 mm, 0.5 mm, 0.3 mm], cell_side: 30 um,
+        wall_thickness: 4 um, axis: y}
+    - {sphere: {centre: [0.2 mm, 0.2 mm, 0.1 mm], radius: 0.05 mm}, material: void}
+    - {cylinder: {from: [0 m, 0 m, 0 m], to: [0.1 mm, 0 m, 0.1 mm], radius: 10 um,
+        inner_radius: 3 um}, velocity: [1 m/s, -2 m/s, 3 m/s]}
+    - {box: {lower: [0 m, 0 m, 0 m], upper: [1 um, 1 um, 2 um]}, material: ram}
+  windows: [{name: back half, z: [0, 0.5]}]
+grid: {cells: [20, 10, 6], margin: [1 um, 2 um, 0 um, 0 um, 0 um, 0 um]}
+numerics: {ranks: [2, 1, 0]}
+loading: {piston: front, speed: 1 m/s, lateral: [free, rigid, periodic, periodic]}
+)");
+}
+
+TEST_F(EffectiveScene, OfAPictureDrawnOutIntoSpaceReadsBackTheSame)
+{
+  expect_round_trip(R"(specimen: {micrograph: wood.png, pixel_size: 1 um, depth: 0.25 mm}
+grid: {spacing: 5 um}
+free_motion: {end_time: 1 us, sides: [rigid, rigid, free, free, periodic, periodic]}
+)");
+}
+
 TEST_F(EffectiveScene, NamesDefaultsInReadableUnits)
 {
   std::ostringstream written;

@@ -16,7 +16,7 @@ TEST_F(Overrides, ChangeAndCreateKeys)
 {
   const Scene scene = read(smallest, {"loading.speed=5 m/s", "grid.cells=[30, 20]", "title=b = c"});
   EXPECT_EQ(std::get<Loading>(scene.motion).speed, 5);
-  EXPECT_THAT(*scene.grid.cells, ElementsAre(30, 20));
+  EXPECT_THAT(*scene.grid.cells, ElementsAre(30, 20, 0));
   EXPECT_EQ(scene.title, "b = c");
 }
 

@@ -1,0 +1,56 @@
+#pragma once
+/// What fills the locations of a specimen: shapes, or a picture.
+
+#include <mpm/micrograph/lattice.hpp>
+#include <mpm/micrograph/section.hpp>
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace mpm::micrograph {
+
+template <int Dim>
+class LocationSource {
+ public:
+  virtual ~LocationSource() = default;
+  /// Fills a lattice whose count and part are set. Not collective.
+  virtual void fill(Lattice<Dim>& lattice) const = 0;
+};
+
+/// A location belongs to the last shape that contains its centre.
+template <int Dim>
+class ShapeSource : public LocationSource<Dim> {
+ public:
+  /// Throws InputError (no or impossible shapes, unknown materials).
+  ShapeSource(const scene::Scene& scene, const Vec<Dim>& size);
+
+  void fill(Lattice<Dim>& lattice) const override { fill(lattice, {}); }
+  /// Marks the shapes that contain the centre of a location, if there are marks.
+  void fill(Lattice<Dim>& lattice, std::span<double> found) const;
+  /// Index into scene.materials, or Lattice::empty, of what a shape is made of.
+  std::int8_t material(std::size_t shape) const { return materials_[shape]; }
+
+ private:
+  Vec<Dim> size_;
+  std::vector<scene::Shape> shapes_;
+  std::vector<std::int8_t> materials_;
+};
+
+/// A section drawn out along z.
+template <int Dim>
+class PictureSource : public LocationSource<Dim> {
+ public:
+  explicit PictureSource(Section section) : section_(std::move(section)) {}
+  void fill(Lattice<Dim>& lattice) const override;
+
+ private:
+  Section section_;
+};
+
+extern template class ShapeSource<2>;
+extern template class ShapeSource<3>;
+extern template class PictureSource<2>;
+extern template class PictureSource<3>;
+
+}  // namespace mpm::micrograph

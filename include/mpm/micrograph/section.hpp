@@ -1,0 +1,49 @@
+#pragma once
+/// What a picture makes of each location of a section across z.
+
+#include <mpm/micrograph/image.hpp>
+#include <mpm/micrograph/pieces.hpp>
+#include <mpm/micrograph/share.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mpm::micrograph {
+
+/// What was taken from a picture.
+struct PictureFigures {
+  double threshold = 0;           ///< gray level that parts the pixels; 0 with bands
+  double location_threshold = 0;  ///< that parts the mean grays of the locations; 0 with bands
+  double density = 0;             ///< share of the pixels that are wall
+  std::int64_t removed = 0;       ///< locations removed as specks or unconnected pieces
+};
+
+/// Gray levels [from, to) made of one material.
+struct Band {
+  double from, to;
+  std::int8_t material;
+};
+
+/// A location belongs to the cell wall, or to a material, by the mean gray of the picture over its
+/// rectangle. Holds the picture, the limits of the gray levels and what was removed, but no
+/// lattice.
+class Section {
+ public:
+  /// Limits and pieces are found by all parts together, each from its slab of the rows. Collective.
+  /// Throws on all parts or on none InputError (no wall, impossible bands).
+  Section(const scene::Scene& scene, GrayImage image, const IndexVec<2>& count, const Share& share);
+
+  const PictureFigures& figures() const { return figures_; }
+  /// Materials of the locations of a part, x fastest.
+  std::vector<std::int8_t> materials(const IndexBox<2>& part) const;
+
+ private:
+  GrayImage image_;
+  IndexVec<2> count_;
+  std::vector<Band> bands_;   ///< of the locations' mean grays
+  std::vector<Run> removed_;  ///< in the order of their rows
+  PictureFigures figures_;
+};
+
+}  // namespace mpm::micrograph

@@ -1,0 +1,163 @@
+#include <mpm/core/error.hpp>
+#include <mpm/micrograph/location_means.hpp>
+#include <mpm/micrograph/material_names.hpp>
+#include <mpm/micrograph/section.hpp>
+#include <mpm/micrograph/threshold.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace mpm::micrograph {
+
+namespace {
+
+using scene::ThresholdRule;
+
+std::vector<Band> bands_of(const scene::Scene& scene)
+{
+  const MaterialNames materials(scene.materials);
+  std::vector<Band> bands;
+  for (const scene::GrayBand& band : scene.specimen.micrograph->bands) {
+    const std::string key = fmt::format("specimen.bands[{}]", bands.size());
+    if (!(band.from < band.to))
+      throw InputError(
+          fmt::format("{} is from {} to {} (from must be below to).", key, band.from, band.to));
+    for (std::size_t other = 0; other < bands.size(); ++other)
+      if (band.from < bands[other].to && bands[other].from < band.to)
+        throw InputError(
+            fmt::format("{} from {} to {} overlaps specimen.bands[{}] from {} to {}. Part them.",
+                        key, band.from, band.to, other, bands[other].from, bands[other].to));
+    bands.push_back({band.from, band.to, materials.index(band.material, key + ".material")});
+  }
+  return bands;
+}
+
+/// The cell wall as one band: from the threshold on where walls are bright, else below it.
+Band wall_band(double threshold, scene::Wall wall)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (wall == scene::Wall::bright) return {threshold, infinity, 0};
+  return {-infinity, threshold, 0};
+}
+
+std::int8_t material_of(double gray, std::span<const Band> bands)
+{
+  for (const Band& band : bands)
+    if (gray >= band.from && gray < band.to) return band.material;
+  return Lattice<2>::empty;
+}
+
+std::vector<std::int8_t> materials_of(std::span<const double> grays, std::span<const Band> bands)
+{
+  std::vector<std::int8_t> materials(grays.size());
+  std::ranges::transform(grays, materials.begin(),
+                         [&](double gray) { return material_of(gray, bands); });
+  return materials;
+}
+
+/// The limit of the locations' mean grays that has the same share below it as `limit` has of the
+/// pixels.
+double matched(double limit, std::span<const double> pixels, std::span<const double> means,
+               const Share& share)
+{
+  if (std::isinf(limit)) return limit;
+  const auto below = std::ranges::count_if(pixels, [limit](double gray) { return gray < limit; });
+  return level_with_share_below(means, double(below) / double(pixels.size()), share);
+}
+
+/// Values of all parts that lie in a band.
+double count_in(std::span<const double> grays, std::span<const Band> bands, const Share& share)
+{
+  auto count = double(std::ranges::count_if(
+      grays, [&](double gray) { return material_of(gray, bands) != Lattice<2>::empty; }));
+  share.sum(std::span(&count, 1));
+  return count;
+}
+
+[[noreturn]] void fail_without_wall(const scene::Micrograph& micrograph, double threshold,
+                                    std::span<const double> means, const IndexVec<2>& count,
+                                    const Share& share)
+{
+  const double darkest = nth_smallest(means, 0, share);
+  const double brightest = nth_smallest(means, GlobalIndex(count[0]) * count[1] - 1, share);
+  const std::string range =
+      fmt::format("the gray of the locations lies between {:.1f} and {:.1f}", darkest, brightest);
+  if (!micrograph.bands.empty())
+    throw InputError(fmt::format(
+        "no cell wall found: {}, outside every entry of specimen.bands. Change their limits.",
+        range));
+  const bool bright = micrograph.wall == scene::Wall::bright;
+  throw InputError(fmt::format(
+      "no cell wall found: {}, specimen.threshold is {:.1f} and walls are {}. {} the threshold, or "
+      "set specimen.wall: {}.",
+      range, threshold, bright ? "bright" : "dark", bright ? "Lower" : "Raise",
+      bright ? "dark" : "bright"));
+}
+
+}  // namespace
+
+Section::Section(const scene::Scene& scene, GrayImage image, const IndexVec<2>& count,
+                 const Share& share)
+    : image_(std::move(image)), count_(count)
+{
+  const scene::Micrograph& micrograph = *scene.specimen.micrograph;
+  const IndexBox<2> whole{IndexVec<2>::Zero(), count};
+  Lattice<2> rows{count, slab(whole, share.part, share.parts), {}, {}};
+  const std::vector<double> means = location_means(image_, count, rows.part);
+  const bool aimed = micrograph.threshold_rule == ThresholdRule::target_relative_density;
+  const bool matches = micrograph.sampling == scene::Sampling::match && !aimed;
+
+  std::vector<Band> of_pixels = bands_of(scene);
+  const bool by_threshold = of_pixels.empty();
+  if (by_threshold) {
+    figures_.threshold = aimed ? threshold_for_density(means, micrograph.target_relative_density,
+                                                       micrograph.wall, share)
+                         : micrograph.threshold_rule == ThresholdRule::otsu
+                             ? otsu_threshold(image_.gray)
+                             : micrograph.threshold;
+    of_pixels = {wall_band(figures_.threshold, micrograph.wall)};
+  }
+  bands_ = of_pixels;
+  for (Band& band : bands_) {
+    if (!matches) continue;
+    band.from = matched(band.from, image_.gray, means, share);
+    band.to = matched(band.to, image_.gray, means, share);
+  }
+  if (by_threshold)
+    figures_.location_threshold =
+        micrograph.wall == scene::Wall::bright ? bands_[0].from : bands_[0].to;
+  figures_.density = count_in(image_.gray, of_pixels, {}) / double(image_.gray.size());
+
+  const double filled = count_in(means, bands_, share);
+  if (filled == 0) fail_without_wall(micrograph, figures_.threshold, means, count, share);
+  if (micrograph.remove_specks <= 1 && !micrograph.remove_unconnected) return;
+
+  rows.material = materials_of(means, bands_);
+  removed_ = removed_runs(rows, {micrograph.remove_specks, micrograph.remove_unconnected}, share);
+  for (const Run& run : removed_) figures_.removed += run.end - run.begin;
+  if (double(figures_.removed) == filled)
+    throw InputError(
+        fmt::format("no cell wall left: every piece has fewer than specimen.remove_specks = {} "
+                    "locations. Lower it.",
+                    micrograph.remove_specks));
+}
+
+std::vector<std::int8_t> Section::materials(const IndexBox<2>& part) const
+{
+  std::vector<std::int8_t> materials = materials_of(location_means(image_, count_, part), bands_);
+  const LocalIndex width = part.count()[0];
+  for (auto run = std::ranges::lower_bound(removed_, part.lower[1], {}, &Run::row);
+       run != removed_.end() && run->row < part.upper[1]; ++run) {
+    const LocalIndex begin = std::max(run->begin, part.lower[0]) - part.lower[0];
+    const LocalIndex end = std::min(run->end, part.upper[0]) - part.lower[0];
+    if (begin >= end) continue;
+    const auto row = materials.begin() + std::ptrdiff_t(run->row - part.lower[1]) * width;
+    std::fill(row + begin, row + end, Lattice<2>::empty);
+  }
+  return materials;
+}
+
+}  // namespace mpm::micrograph
