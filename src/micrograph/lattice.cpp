@@ -141,7 +141,7 @@ std::vector<RelativeDensity> densities(const Lattice& lattice, const scene::Scen
         const std::int8_t material = lattice(i, j);
         if (material == Lattice::empty) continue;
         filled += 1;
-        density_sum += scene.materials[std::size_t(material)].density;
+        density_sum += scene.materials[std::size_t(material)].density();
       }
     }
     if (locations == 0)

@@ -53,6 +53,15 @@ void write_section(std::ostream& out, std::string_view title)
   }
 }
 
+/// What the words of a list mean.
+template <class Row>
+void write_words(std::ostream& out, std::string_view key)
+{
+  out << fmt::format("\n| `{}` | meaning |\n|---|---|\n", key);
+  for (const Row& row : list_of<Row>())
+    out << fmt::format("| `{}` | {} |\n", row.keyword, row.help);
+}
+
 template <class... Owners>
 void write_sections(std::ostream& out)
 {
@@ -64,8 +73,10 @@ void write_sections(std::ostream& out)
 void write_input_reference(std::ostream& out)
 {
   out << introduction;
-  write_sections<SceneKeys, Material, Specimen, GrayBand, Window, Shape, Box, Disc, Polygon,
-                 Honeycomb, Grid, Numerics, Loading, LoadCell, FreeMotion, OutputKeys>(out);
+  write_sections<SceneKeys, Material>(out);
+  write_words<LawRow>(out, "law");
+  write_sections<Specimen, GrayBand, Window, Shape, Box, Disc, Polygon, Honeycomb, Grid, Numerics,
+                 Loading, LoadCell, FreeMotion, OutputKeys>(out);
   write_section<SnapshotKeys>(out, snapshots_section);
 }
 

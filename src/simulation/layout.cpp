@@ -52,14 +52,15 @@ std::array<double, 2> initial_velocity(const scene::Scene& scene, const Lattice&
 scene::Material load_cell_material(const scene::Scene& scene, double ratio)
 {
   const auto first = std::ranges::find_if(
-      scene.materials, [](const scene::Material& m) { return m.law != scene::Law::rigid; });
-  scene::Material material;
-  material.name = "load_cell";
-  material.law = scene::Law::isotropic;
-  material.density = ratio * first->density;
-  material.youngs_modulus = ratio * first->youngs_modulus;
-  material.poisson_ratio = first->poisson_ratio;
-  return material;
+      scene.materials, [](const scene::Material& m) { return m.law->deformable(); });
+  scene::Material cell{
+      .name = "load_cell",
+      .law = "isotropic",
+      .values = {{"density", ratio * first->density()},
+                 {"youngs_modulus", ratio * first->values.number("youngs_modulus")},
+                 {"poisson_ratio", first->values.number("poisson_ratio")}}};
+  fill_defaults(*cell.law, cell.values);
+  return cell;
 }
 
 Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
@@ -111,30 +112,28 @@ Layout make_layout(const scene::Scene& scene, const SpecimenModel& specimen)
       const std::int8_t material = specimen.lattice(i, j);
       if (material == Lattice::empty) continue;
       used[material] = 1;
-      if (scene.materials[material].law == scene::Law::rigid) continue;
+      if (!scene.materials[material].law->deformable()) continue;
       layout.largest_speed =
           std::max(layout.largest_speed,
                    fastest(initial_velocity(scene, specimen.lattice, std::size_t(j) * nx + i)));
     }
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
     const scene::Material& material = scene.materials[k];
-    if (material.law == scene::Law::rigid) {
+    if (!material.law->deformable()) {
       if (used[k])
-        layout.largest_speed = std::max(layout.largest_speed, fastest(material.velocity));
+        layout.largest_speed = std::max(layout.largest_speed, fastest(velocity_of(material)));
       continue;
     }
     if (!used[k]) continue;
     layout.largest_particle_mass =
-        std::max(layout.largest_particle_mass, material.density * layout.particle_volume);
-    layout.wave_speed =
-        std::max(layout.wave_speed, make_law(material, scene.numerics.plane)->wave_speed());
+        std::max(layout.largest_particle_mass, material.density() * layout.particle_volume);
+    layout.wave_speed = std::max(layout.wave_speed, law_of(material, scene)->wave_speed());
   }
   if (layout.load_cell) {
     const scene::Material cell = load_cell_material(scene, layout.load_cell->density_ratio);
     layout.largest_particle_mass =
-        std::max(layout.largest_particle_mass, cell.density * layout.particle_volume);
-    layout.wave_speed =
-        std::max(layout.wave_speed, make_law(cell, scene.numerics.plane)->wave_speed());
+        std::max(layout.largest_particle_mass, cell.density() * layout.particle_volume);
+    layout.wave_speed = std::max(layout.wave_speed, law_of(cell, scene)->wave_speed());
   }
   layout.cfl = default_cfl(scene.numerics);
   if (loading) {

@@ -75,13 +75,13 @@ class BodyFiller {
 Body<2> empty_body(const scene::Material& material, int index, const scene::Scene& scene,
                    const Transfer<2>& transfer)
 {
-  auto law = make_law(material, scene.numerics.plane);
+  auto law = law_of(material, scene);
   auto state = law->state_columns();
   const bool musl = scene.numerics.update_order == scene::UpdateOrder::musl;
   ParticleStore particles(
       transfer.motion_columns(musl), std::move(state),
       {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume", "plastic_work"});
-  return {material.name, index, material.density, std::move(law), std::move(particles)};
+  return {material.name, index, material.density(), std::move(law), std::move(particles)};
 }
 
 WallGrip grip_of(scene::Grip grip)
@@ -149,7 +149,8 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
     const scene::Material& material = scene.materials[k];
     if (std::ranges::find(lattice.material, std::int8_t(k)) == lattice.material.end()) continue;
-    if (material.law == scene::Law::rigid) {
+    if (!material.law->deformable()) {
+      const auto velocity = velocity_of(material);
       std::vector<Vec<2>> points;
       for (int j = 0; j < lattice.ny; ++j)
         for (int i = 0; i < lattice.nx; ++i)
@@ -158,7 +159,7 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
                 {(i + 0.5) * layout.location_size[0], (j + 0.5) * layout.location_size[1]});
       model.conditions.push_back(std::make_unique<RigidBody<2>>(
           std::move(points), Vec<2>(0.5 * layout.location_size[0], 0.5 * layout.location_size[1]),
-          Vec<2>(material.velocity[0], material.velocity[1]), book_of(scene.numerics)));
+          Vec<2>(velocity[0], velocity[1]), book_of(scene.numerics)));
       continue;
     }
     Body<2>& body = model.bodies.emplace_back(empty_body(material, int(k), scene, *model.transfer));

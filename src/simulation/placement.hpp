@@ -27,6 +27,19 @@ std::array<double, 2> initial_velocity(const scene::Scene& scene,
 /// ratio, so that waves run through it as fast as through the wood.
 scene::Material load_cell_material(const scene::Scene& scene, double ratio);
 
+/// Law of a deformable material.
+inline std::unique_ptr<Law<2>> law_of(const scene::Material& material, const scene::Scene& scene)
+{
+  return make_law<2>(*material.law, material.values, scene.numerics.plane);
+}
+
+/// Prescribed velocity of a material that cannot be deformed, m/s.
+inline std::array<double, 2> velocity_of(const scene::Material& material)
+{
+  const std::vector<double>& v = material.values.vector("velocity");
+  return {v[0], v[1]};
+}
+
 /// Cell along axis d of a location counted from the specimen's lower left corner.
 inline LocalIndex cell_of_location(const Layout& layout, int particles_per_cell, int location,
                                    int d)
@@ -55,7 +68,7 @@ void for_each_particle_cell(const scene::Scene& scene, const micrograph::Specime
   for (int j = share.part; j < lattice.ny; j += share.parts)
     for (int i = 0; i < lattice.nx; ++i)
       if (lattice(i, j) != micrograph::Lattice::empty &&
-          scene.materials[lattice(i, j)].law != scene::Law::rigid)
+          scene.materials[lattice(i, j)].law->deformable())
         visit_location(i, j);
   if (!layout.load_cell || share.part != 0) return;
   const IndexBox<2>& box = layout.load_cell->locations;

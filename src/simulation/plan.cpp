@@ -68,9 +68,9 @@ std::vector<std::string> left_out(const scene::Scene& scene)
 {
   std::vector<std::string> list;
   const auto* loading = std::get_if<scene::Loading>(&scene.motion);
-  const auto deformable = [](const scene::Material& m) { return m.law != scene::Law::rigid; };
+  const auto deformable = [](const scene::Material& m) { return m.law->deformable(); };
   if (std::ranges::none_of(scene.materials,
-                           [](const scene::Material& m) { return m.law == scene::Law::von_mises; }))
+                           [](const scene::Material& m) { return m.law->has("yield_stress"); }))
     list.push_back("plasticity");
   if (loading && !loading->load_cell) list.push_back("load cell");
   if (scene.numerics.update_order != scene::UpdateOrder::musl) list.push_back("re-mapping pass");
@@ -108,10 +108,9 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
     particle_columns += c.components;
   int state_columns = 0;
   for (const scene::Material& material : scene.materials) {
-    if (material.law == scene::Law::rigid) continue;
+    if (!material.law->deformable()) continue;
     int columns = 0;
-    for (const Column& c : make_law(material, scene.numerics.plane)->state_columns())
-      columns += c.components;
+    for (const Column& c : law_of(material, scene)->state_columns()) columns += c.components;
     state_columns = std::max(state_columns, columns);
   }
   const double bytes_per_particle = 8.0 * (particle_columns + state_columns);
@@ -139,10 +138,9 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
                              name_of(scene.numerics.scheme), name_of(scene.numerics.update_order),
                              scene.numerics.plane == scene::Plane::strain ? "strain" : "stress"));
   for (const scene::Material& material : scene.materials)
-    if (material.law != scene::Law::rigid)
-      line("material",
-           fmt::format("{}: wave speed {:.0f} m/s, {:.0f} kg/m3", material.name,
-                       make_law(material, scene.numerics.plane)->wave_speed(), material.density));
+    if (material.law->deformable())
+      line("material", fmt::format("{}: wave speed {:.0f} m/s, {:.0f} kg/m3", material.name,
+                                   law_of(material, scene)->wave_speed(), material.density()));
   std::string absent;
   for (const std::string& what : left_out(scene)) absent += (absent.empty() ? "" : ", ") + what;
   line("left out", absent.empty() ? "nothing" : absent);

@@ -71,7 +71,7 @@ Parameter<Owner> property(std::string key, std::function<T(const Owner&)> get,
           Value<T>::describe(rule),
           traits.need,
           traits.default_text,
-          traits.decides || std::is_enum_v<T>,
+          traits.decides || is_choice<T>,
           [rule, get, set](const Given& given, Owner& owner) {
             T value = get(owner);
             const bool good = Value<T>::read(given, rule, value);

@@ -60,9 +60,6 @@ struct Model {
 Model make_model(const scene::Scene& scene, const micrograph::SpecimenModel& specimen,
                  const Layout& layout, const Decomposition<2>& decomposition);
 
-/// Law of a scene's material. A new law is one file and one line there.
-std::unique_ptr<Law<2>> make_law(const scene::Material& material, scene::Plane plane);
-
 double default_cfl(const scene::Numerics& numerics);
 UpdateOrderKind update_order_of(const scene::Scene& scene);
 std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int particles_per_cell);
