@@ -24,43 +24,30 @@ void print_once(const std::string& text)
   if (rank_of(MPI_COMM_WORLD) == 0) fmt::print("{}", text);
 }
 
-void refuse_what_cannot_run(const scene::Scene& scene)
+template <int Dim>
+void plan_and_run(const scene::CommandLine& command_line, const scene::Scene& scene,
+                  std::optional<micrograph::Picture> picture)
 {
-  if (scene.dimensions != 2)
-    throw InputError(scene.file.string() +
-                     ": a scene in space can be read, but not run yet. Give specimen.size two "
-                     "components, and no specimen.depth.");
-  const auto is_periodic = [](scene::Lateral side) { return side == scene::Lateral::periodic; };
-  const auto* loading = std::get_if<scene::Loading>(&scene.motion);
-  if (loading ? std::ranges::any_of(loading->lateral, is_periodic)
-              : std::ranges::any_of(std::get<scene::FreeMotion>(scene.motion).sides, is_periodic))
-    throw InputError(
-        scene.file.string() +
-        ": periodic sides can be read, but not run yet. Use rigid, free or symmetric.");
+  const Preparation<Dim> preparation(MPI_COMM_WORLD, scene, std::move(picture));
+  print_once(plan_text(preparation));
+  if (!command_line.ranks.empty() && rank_of(MPI_COMM_WORLD) == 0)
+    print_once(rank_study_text(preparation, command_line.ranks));
+  if (!command_line.check) run_in_folder(preparation, scene::results_folder(command_line, scene));
 }
 
 void read_and_run(const scene::CommandLine& command_line)
 {
   scene::Scene scene;
   std::optional<micrograph::Picture> picture;
-  Layout layout;
   // Every rank reads: the same file gives the same scene, and an unreadable one stops all of them.
   agree(MPI_COMM_WORLD, [&] {
     scene = scene::read_scene(command_line.scene, command_line.overrides);
-    refuse_what_cannot_run(scene);
     picture = micrograph::read_picture(scene);
   });
-  const auto sum = [](std::span<double> values) { sum_over_ranks(MPI_COMM_WORLD, values); };
-  const micrograph::Share share{rank_of(MPI_COMM_WORLD), ranks_of(MPI_COMM_WORLD), sum};
-  const micrograph::Specimen<2> specimen(scene, std::move(picture), share);
-  agree(MPI_COMM_WORLD, [&] { layout = make_layout(scene, specimen); });
-  const Decomposition<2> decomposition =
-      make_decomposition(MPI_COMM_WORLD, scene, specimen, layout);
-  print_once(plan_text(scene, specimen, layout, decomposition));
-  if (!command_line.ranks.empty())
-    print_once(rank_study_text(scene, specimen, layout, command_line.ranks));
-  if (command_line.check) return;
-  run_scene(scene, specimen, layout, decomposition, scene::results_folder(command_line, scene));
+  if (scene.dimensions == 2)
+    plan_and_run<2>(command_line, scene, std::move(picture));
+  else
+    plan_and_run<3>(command_line, scene, std::move(picture));
 }
 
 int report(ExitStatus status, const char* what)

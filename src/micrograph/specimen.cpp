@@ -47,7 +47,7 @@ std::vector<RelativeDensity> densities_of(const scene::Scene& scene,
     for (std::size_t label = 0; label < count.filled.size(); ++label)
       if (count.filled[label] > 0)
         mass +=
-            count.filled[label] * scene.materials[std::size_t(material_of_label[label])].density;
+            count.filled[label] * scene.materials[std::size_t(material_of_label[label])].density();
     const double filled = std::accumulate(count.filled.begin(), count.filled.end(), 0.0);
     densities.push_back({windows[w].name, filled / count.locations, mass / count.locations});
   }
@@ -132,7 +132,7 @@ void Specimen<Dim>::settle_shapes(const scene::Scene& scene, const Share& share)
     const double filled = counts[0].filled[shape];
     if (filled == 0) continue;  // void, or all of it drawn over
     particles_of_material_[std::size_t(material)] += GlobalIndex(filled);
-    if (scene.materials[std::size_t(material)].law == scene::Law::rigid) continue;
+    if (!scene.materials[std::size_t(material)].law->deformable()) continue;
     for (const double component : specimen.shapes[shape].velocity)
       largest_initial_speed_ = std::max(largest_initial_speed_, std::abs(component));
   }

@@ -68,6 +68,8 @@ std::string Summary::text() const
       json[key] = Json::parse((*nested)->text());
     else if (const auto* list = std::get_if<std::vector<double>>(&value))
       json[key] = list_of(*list);
+    else if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&value))
+      json[key] = *integers;
     else
       json[key] = nullptr;
   }

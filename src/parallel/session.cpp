@@ -1,6 +1,7 @@
 #include <mpm/core/error.hpp>
 #include <mpm/parallel/session.hpp>
 
+#include <numeric>
 #include <string>
 
 #include "petsc_check.hpp"
@@ -75,6 +76,18 @@ double largest_over_ranks(MPI_Comm comm, double value)
 void largest_over_ranks(MPI_Comm comm, std::span<double> values)
 {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE, MPI_MAX, comm);
+}
+
+std::vector<double> joined_over_ranks(MPI_Comm comm, std::span<const double> values)
+{
+  std::vector<int> counts(std::size_t(ranks_of(comm))), starts(counts.size());
+  const int own = int(values.size());
+  MPI_Allgather(&own, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+  std::vector<double> all(std::size_t(starts.back()) + counts.back());
+  MPI_Allgatherv(values.data(), own, MPI_DOUBLE, all.data(), counts.data(), starts.data(),
+                 MPI_DOUBLE, comm);
+  return all;
 }
 
 void agree(MPI_Comm comm, const std::function<void()>& action)

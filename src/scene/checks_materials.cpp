@@ -1,26 +1,7 @@
-#include <cmath>
-
 #include "checks.hpp"
 #include <fmt/format.h>
 
 namespace mpm::scene {
-
-namespace {
-
-/// The elastic energy of a transversely isotropic law is positive for |nu_T| < 1 (the row's bound)
-/// and nu_A^2 < E_A (1 - nu_T) / (2 E_T).
-void check_axial_poisson_ratio(const Checked& checked, const Material& m, const std::string& path)
-{
-  const double limit = std::sqrt(m.axial_modulus * (1 - m.poisson_ratio) / (2 * m.youngs_modulus));
-  if (std::abs(m.axial_poisson_ratio) >= limit)
-    checked.refuse(path + ".axial_poisson_ratio",
-                   fmt::format("must lie within +-{:.4g}, the square root of axial_modulus "
-                               "(1 - poisson_ratio) / (2 youngs_modulus), or stretching would "
-                               "release energy",
-                               limit));
-}
-
-}  // namespace
 
 void check_materials(const Checked& checked)
 {
@@ -36,9 +17,10 @@ void check_materials(const Checked& checked)
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const Material& material = materials[i];
     const std::string path = checked.material_path(i);
-    deformable = deformable || material.law != Law::rigid || !checked.sound(path + ".law");
-    if (material.law == Law::transversely_isotropic && checked.sound(path))
-      check_axial_poisson_ratio(checked, material, path);
+    deformable = deformable || material.law->deformable() || !checked.sound(path + ".law");
+    if (material.law->check && checked.sound(path))
+      if (const auto found = material.law->check(material.values))
+        checked.refuse(path + "." + found->key, found->reason);
     if (material.name == "void" || material.name.empty())
       checked.refuse(path + ".name", "stands for no material", "Choose another name");
     if (materials.size() > 1 && !checked.given(path + ".name")) {
@@ -52,6 +34,15 @@ void check_materials(const Checked& checked)
                        "Choose another name");
     }
   }
+  const auto first = std::ranges::find_if(
+      materials, [](const Material& material) { return material.law->deformable(); });
+  const auto* loading = std::get_if<Loading>(&checked.scene.motion);
+  if (first != materials.end() && loading && loading->load_cell &&
+      !(first->law->has("youngs_modulus") && first->law->has("poisson_ratio")))
+    checked.refuse("loading.load_cell",
+                   "it is made from Young's modulus and Poisson's ratio of the first material, "
+                   "which law " +
+                       first->law->keyword + " does not have");
   if (!deformable) {
     checked.refuse(checked.material_path(0) + ".law", "no material is left that can be deformed",
                    "Add one of another law");

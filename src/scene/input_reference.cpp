@@ -56,6 +56,15 @@ void write_section(std::ostream& out, std::string_view title)
   }
 }
 
+/// What the words of a list mean.
+template <class Row>
+void write_words(std::ostream& out, std::string_view key)
+{
+  out << fmt::format("\n| `{}` | meaning |\n|---|---|\n", key);
+  for (const Row& row : list_of<Row>())
+    out << fmt::format("| `{}` | {} |\n", row.keyword, row.help);
+}
+
 template <class... Owners>
 void write_sections(std::ostream& out)
 {
@@ -67,7 +76,9 @@ void write_sections(std::ostream& out)
 void write_input_reference(std::ostream& out)
 {
   out << introduction;
-  write_sections<SceneKeys, Material, Specimen, GrayBand, Window, Shape>(out);
+  write_sections<SceneKeys, Material>(out);
+  write_words<LawRow>(out, "law");
+  write_sections<Specimen, GrayBand, Window, Shape>(out);
   for_each_kind([&]<class Kind>(std::type_identity<Kind>) { write_sections<Kind>(out); });
   write_sections<Grid, Numerics, Loading, LoadCell, FreeMotion, OutputKeys>(out);
   write_section<SnapshotKeys>(out, snapshots_section);

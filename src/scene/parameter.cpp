@@ -1,3 +1,4 @@
+#include <mpm/core/nearest_name.hpp>
 #include <mpm/scene/parameter.hpp>
 
 #include <fmt/format.h>

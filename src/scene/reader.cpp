@@ -15,12 +15,10 @@ namespace {
 /// transverse compression and densification in wood".
 Material cell_wall()
 {
-  Material material;
-  material.density = 1500;
-  material.youngs_modulus = 10.6e9;
-  material.poisson_ratio = 0.33;
-  material.yield_stress = 500e6;
-  return material;
+  return {.values = {{"density", 1500.0},
+                     {"youngs_modulus", 10.6e9},
+                     {"poisson_ratio", 0.33},
+                     {"yield_stress", 500e6}}};
 }
 
 void apply(Node& root, const std::vector<std::string>& overrides)
@@ -101,6 +99,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   scene.file = file;
   if (scene.name.empty()) scene.name = file.stem().string();
   if (scene.materials.empty()) scene.materials = {cell_wall()};
+  for (Material& material : scene.materials) fill_defaults(*material.law, material.values);
   for (Shape& shape : scene.specimen.shapes)
     if (shape.material.empty()) shape.material = scene.materials.front().name;
   scene.output = filled_output(keys.output_keys, scene.motion);

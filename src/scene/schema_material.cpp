@@ -1,19 +1,122 @@
+// The keys of a material: its name, its law, and what the laws in the list ask for.
 #include <mpm/scene/schema.hpp>
-
-#include <initializer_list>
 
 namespace mpm::scene {
 
 namespace {
 
-Condition<Material> law(std::initializer_list<Law> laws)
+/// A parameter and the laws that have it, word for word the same.
+struct Shared {
+  LawParameter parameter;
+  std::vector<std::string> laws;
+};
+
+std::vector<Shared> law_parameters()
 {
-  std::vector<std::string> names;
-  for (const Law each : laws) names.emplace_back(name_of(each));
-  return {[laws = std::vector(laws)](const Material& material) {
-            return std::ranges::find(laws, material.law) != laws.end();
+  std::vector<Shared> list;
+  for (const LawRow& law : list_of<LawRow>())
+    for (const LawParameter& parameter : law.parameters) {
+      auto same = std::ranges::find(list, parameter, &Shared::parameter);
+      if (same == list.end()) same = list.insert(same, {parameter, {}});
+      same->laws.push_back(law.keyword);
+    }
+  return list;
+}
+
+/// Of a vector.
+using Components = PerAxis<double>;
+
+/// What the scene says, or the default.
+std::optional<ParameterValue> value_of(const Material& material, const LawParameter& parameter)
+{
+  const ParameterValue* given = material.values.find(parameter.key);
+  return given ? *given : parameter.default_value();
+}
+
+Condition<Material> condition_of(const Shared& shared)
+{
+  const auto only = shared.parameter.only;
+  const auto has_word = [only](const Material& material) {
+    const auto& keys = material.law->parameters;
+    const auto key = std::ranges::find(keys, only->key, &LawParameter::key);
+    return key != keys.end() && value_of(material, *key) == ParameterValue(only->word);
+  };
+  return {
+      [laws = shared.laws, only, has_word](const Material& material) {
+        return std::ranges::find(laws, material.law->keyword) != laws.end() &&
+               (!only || has_word(material));
+      },
+      "law " + alternatives(shared.laws) + (only ? " with " + only->key + " " + only->word : "")};
+}
+
+double held(double number)
+{
+  return number;
+}
+std::vector<double> held(const Components& components)
+{
+  return {components.begin(), components.end()};
+}
+void take(const ParameterValue& value, double& number)
+{
+  number = std::get<double>(value);
+}
+void take(const ParameterValue& value, Components& components)
+{
+  std::ranges::copy(std::get<std::vector<double>>(value), components.begin());
+}
+
+/// A number, or the components of a vector.
+template <class T>
+Parameter<Material> row_of_numbers(const LawParameter& p)
+{
+  const Rule rule{p.quantity, p.bound};
+  return {p.key,
+          p.help,
+          Value<T>::describe(rule),
+          p.fallback ? Need::optional : Need::required,
+          "",
+          false,
+          [p, rule](const Given& given, Material& material, int dimensions) {
+            Rule here = rule;
+            here.dimensions = dimensions;
+            T value{};
+            const bool good = Value<T>::read(given, here, value);
+            if (good) material.values.set(p.key, held(value));
+            return good;
           },
-          "law " + alternatives(names)};
+          [p, rule](const Material& material, int dimensions) {
+            Rule here = rule;
+            here.dimensions = dimensions;
+            T value{};
+            if (const auto found = value_of(material, p)) take(*found, value);
+            return Value<T>::write(value, here);
+          }};
+}
+
+Parameter<Material> row_of_words(const LawParameter& p)
+{
+  return {p.key,
+          p.help,
+          words_as_code(p.choices),
+          Need::optional,
+          "",
+          true,
+          [p](const Given& given, Material& material, int) {
+            const auto place = read_word(given, p.choices);
+            if (place) material.values.set(p.key, p.choices[*place]);
+            return place.has_value();
+          },
+          [p](const Material& material, int) {
+            return Node::of(std::get<std::string>(*value_of(material, p)));
+          }};
+}
+
+Parameter<Material> row_of(const LawParameter& p)
+{
+  if (!p.choices.empty()) return row_of_words(p);
+  const bool vector = p.fallback && std::holds_alternative<std::vector<double>>(*p.fallback);
+  return vector ? row_of_numbers<Components>(p) : row_of_numbers<double>(p);
 }
 
 }  // namespace
@@ -21,67 +124,15 @@ Condition<Material> law(std::initializer_list<Law> laws)
 template <>
 const std::vector<Parameter<Material>>& parameters<Material>()
 {
-  using enum Law;
-  using enum Quantity;
-  using M = Material;
-  const Need required = Need::required;
-  const auto elastic = law({isotropic, von_mises});
-  const auto deformable = law({isotropic, transversely_isotropic, von_mises});
-  const auto oriented = law({transversely_isotropic});
-  const Condition<M> lying_axis{[](const M& m) {
-                                  return m.law == transversely_isotropic &&
-                                         m.unique_axis == UniqueAxis::in_plane;
-                                },
-                                "law transversely_isotropic with unique_axis in_plane"};
-
-  static const std::vector<Parameter<M>> rows{
-      member<M>("law", &M::law, {}, "how stress follows from strain"),
-      member<M>("name", &M::name, {}, "for bands and shapes; needed with several materials"),
-      member<M>("strain_measure", &M::strain_measure, {},
-                "logarithmic (Hencky) strain, or a rate of small strain with rotation")
-          .when(elastic),
-      member<M>("density", &M::density, {.quantity = density, .bound = above(0), .need = required},
-                "mass per volume of the solid")
-          .when(deformable),
-      member<M>("youngs_modulus", &M::youngs_modulus,
-                {.quantity = pressure, .bound = above(0), .need = required},
-                "Young's modulus; across the unique axis if transversely isotropic")
-          .when(deformable),
-      member<M>("poisson_ratio", &M::poisson_ratio, {.bound = between(-1, 0.5), .need = required},
-                "Poisson's ratio")
-          .when(elastic),
-      member<M>("poisson_ratio", &M::poisson_ratio, {.bound = between(-1, 1), .need = required},
-                "Poisson's ratio within the plane across the unique axis")
-          .when(oriented),
-      member<M>("yield_stress", &M::yield_stress,
-                {.quantity = pressure, .bound = above(0), .need = required},
-                "uniaxial yield stress")
-          .when(law({von_mises})),
-      member<M>("hardening_modulus", &M::hardening_modulus,
-                {.quantity = pressure, .bound = at_least(0)},
-                "slope of the yield stress over plastic strain; 0: perfectly plastic")
-          .when(law({von_mises})),
-      member<M>("axial_modulus", &M::axial_modulus,
-                {.quantity = pressure, .bound = above(0), .need = required},
-                "Young's modulus along the unique axis")
-          .when(oriented),
-      member<M>("axial_poisson_ratio", &M::axial_poisson_ratio, {.need = required},
-                "contraction across over extension along the unique axis, loaded along it")
-          .when(oriented),
-      member<M>("axial_shear_modulus", &M::axial_shear_modulus,
-                {.quantity = pressure, .bound = above(0), .need = required},
-                "shear modulus in planes that hold the unique axis")
-          .when(oriented),
-      member<M>("unique_axis", &M::unique_axis, {},
-                "whether the unique axis stands on the picture or lies in it")
-          .when(oriented),
-      member<M>("axis_angle", &M::axis_angle, {.quantity = angle},
-                "from +x to the unique axis, counter-clockwise")
-          .when(lying_axis),
-      member<M>("velocity", &M::velocity, {.quantity = Quantity::velocity},
-                "prescribed velocity [x, y]")
-          .when(law({rigid})),
-  };
+  static const std::vector<Parameter<Material>> rows = [] {
+    std::vector<Parameter<Material>> list{
+        member<Material>("law", &Material::law, {}, "how stress follows from strain"),
+        member<Material>("name", &Material::name, {},
+                         "for bands and shapes; needed with several materials")};
+    for (const Shared& shared : law_parameters())
+      list.push_back(row_of(shared.parameter).when(condition_of(shared)));
+    return list;
+  }();
   return rows;
 }
 

@@ -1,5 +1,7 @@
+#include <mpm/core/nearest_name.hpp>
 #include <mpm/scene/value.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -43,6 +45,25 @@ std::string alternatives(const std::vector<std::string>& names)
     text += names[i];
   }
   return text;
+}
+
+std::string words_as_code(const std::vector<std::string>& names)
+{
+  std::vector<std::string> words;
+  for (const std::string& name : names) words.push_back('`' + name + '`');
+  return alternatives(words);
+}
+
+std::optional<std::size_t> read_word(const Given& given, const std::vector<std::string>& names)
+{
+  if (!is_scalar(given, "must be " + alternatives(names))) return std::nullopt;
+  const auto found = std::ranges::find(names, given.node.scalar);
+  if (found != names.end()) return std::size_t(found - names.begin());
+  std::string near;
+  if (const auto name = nearest_name(given.node.scalar, names))
+    near = "; did you mean '" + *name + "'?";
+  given.refuse("must be " + alternatives(names) + near);
+  return std::nullopt;
 }
 
 bool Value<double>::read(const Given& given, const Rule& rule, double& value)

@@ -1,14 +1,11 @@
-#include <mpm/core/error.hpp>
-#include <mpm/simulation/model.hpp>
+#include <mpm/simulation/layout.hpp>
+#include <mpm/simulation/method.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "placement.hpp"
-
 namespace mpm {
-
-using micrograph::Lattice;
 
 namespace {
 
@@ -21,128 +18,133 @@ constexpr double free_margin = 0.25;
 /// feel about the same force while the cell walls are still elastic.
 constexpr double crossings_of_start = 8;
 
-/// Margins left, right, bottom, top in m, with room for free edges where none is given.
-std::array<double, 4> margins(const scene::Scene& scene, const Vec<2>& size)
+const scene::Loading* loading_of(const scene::Scene& scene)
 {
-  std::array<double, 4> margin;
-  std::copy_n(scene.grid.margin.begin(), margin.size(), margin.begin());
-  if (const auto* loading = std::get_if<scene::Loading>(&scene.motion)) {
-    const int lateral = 1 - axis_of(loading->piston);
-    for (int k = 0; k < 2; ++k)
-      if (loading->lateral[k] == scene::Lateral::free && margin[2 * lateral + k] == 0)
-        margin[2 * lateral + k] = free_margin * size[lateral];
-  }
-  return margin;
+  return std::get_if<scene::Loading>(&scene.motion);
 }
 
-double fastest(const scene::PerAxis<double>& v)
+/// m, beside the specimen, with room for free edges where none is given.
+double margin_of(const scene::Scene& scene, int axis, bool upper, double size)
 {
-  return std::max(std::abs(v[0]), std::abs(v[1]));
+  const double margin = scene.grid.margin[std::size_t(2 * axis + upper)];
+  const bool lateral = loading_of(scene) && side_of(scene, axis, upper) == scene::Lateral::free;
+  return lateral && margin == 0 ? free_margin * size : margin;
+}
+
+template <int Dim>
+void lay_grid(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+              Layout<Dim>& layout)
+{
+  IndexVec<Dim> before, after;
+  for (int d = 0; d < Dim; ++d) {
+    const double size = specimen.size()[d], h = size / specimen.cells()[d];
+    layout.geometry.spacing[d] = h;
+    layout.location_size[d] = h / layout.per_cell;
+    layout.geometry.periodic[d] = side_of(scene, d, false) == scene::Lateral::periodic;
+    const auto cells = [&](bool upper) -> LocalIndex {
+      if (layout.geometry.periodic[d]) return 0;
+      return ghost_cells + LocalIndex(std::ceil(margin_of(scene, d, upper, size) / h - 1e-9));
+    };
+    before[d] = cells(false);
+    after[d] = cells(true);
+  }
+  if (const auto* loading = loading_of(scene); loading && loading->load_cell) {
+    const int axis = axis_of(loading->piston);
+    const bool below = upper_of(loading->piston);
+    const LocalIndex cells = loading->load_cell->cells, layers = cells * layout.per_cell;
+    (below ? before : after)[axis] += cells;
+    IndexBox<Dim> box = specimen.whole();
+    box.lower[axis] = below ? -layers : specimen.count()[axis];
+    box.upper[axis] = box.lower[axis] + layers;
+    layout.load_cell = {box, loading->load_cell->stiffness_ratio};
+  }
+  layout.padding = before;
+  for (int d = 0; d < Dim; ++d) {
+    layout.geometry.origin[d] = -before[d] * layout.geometry.spacing[d];
+    layout.geometry.nodes[d] =
+        before[d] + specimen.cells()[d] + after[d] + (layout.geometry.periodic[d] ? 0 : 1);
+  }
+}
+
+template <int Dim>
+void measure_materials(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+                       Layout<Dim>& layout)
+{
+  layout.largest_particle_mass = 0;
+  layout.wave_speed = 0;
+  const auto deformable = [&](const scene::Material& material) {
+    layout.largest_particle_mass =
+        std::max(layout.largest_particle_mass, material.density() * layout.particle_volume);
+    layout.wave_speed = std::max(layout.wave_speed, law_of<Dim>(material, scene)->wave_speed());
+  };
+  for (std::size_t k = 0; k < scene.materials.size(); ++k) {
+    const scene::Material& material = scene.materials[k];
+    if (specimen.particles_of_material()[k] == 0) continue;
+    if (material.law->deformable()) {
+      deformable(material);
+      continue;
+    }
+    for (const double component : material.values.vector("velocity"))
+      layout.largest_speed = std::max(layout.largest_speed, std::abs(component));
+  }
+  if (layout.load_cell) deformable(load_cell_material(scene, layout.load_cell->density_ratio));
 }
 
 }  // namespace
 
-std::array<double, 2> initial_velocity(const scene::Scene& scene, const Lattice<2>& lattice,
-                                       std::size_t location)
+std::optional<scene::Lateral> side_of(const scene::Scene& scene, int axis, bool upper)
 {
-  if (lattice.shape.empty() || lattice.shape[location] < 0) return {0, 0};
-  const auto& velocity = scene.specimen.shapes[lattice.shape[location]].velocity;
-  return {velocity[0], velocity[1]};
+  const auto* loading = loading_of(scene);
+  if (!loading)
+    return std::get<scene::FreeMotion>(scene.motion).sides[std::size_t(2 * axis + upper)];
+  const int piston = axis_of(loading->piston);
+  if (axis == piston) return std::nullopt;
+  return loading->lateral[std::size_t(2 * (axis - (axis > piston)) + upper)];
 }
 
 scene::Material load_cell_material(const scene::Scene& scene, double ratio)
 {
   const auto first = std::ranges::find_if(
-      scene.materials, [](const scene::Material& m) { return m.law != scene::Law::rigid; });
-  scene::Material material;
-  material.name = "load_cell";
-  material.law = scene::Law::isotropic;
-  material.density = ratio * first->density;
-  material.youngs_modulus = ratio * first->youngs_modulus;
-  material.poisson_ratio = first->poisson_ratio;
-  return material;
+      scene.materials, [](const scene::Material& m) { return m.law->deformable(); });
+  scene::Material cell{
+      .name = "load_cell",
+      .law = "isotropic",
+      .values = {{"density", ratio * first->density()},
+                 {"youngs_modulus", ratio * first->values.number("youngs_modulus")},
+                 {"poisson_ratio", first->values.number("poisson_ratio")}}};
+  fill_defaults(*cell.law, cell.values);
+  return cell;
 }
 
-Layout make_layout(const scene::Scene& scene, const micrograph::Specimen<2>& specimen)
+double time_of_strain(const WallMotion& piston, double length, double strain)
 {
-  Layout layout;
-  const int per_cell = specimen.particles_per_cell();
-  std::array<LocalIndex, 2> before{ghost_cells, ghost_cells}, after{ghost_cells, ghost_cells};
-  const auto margin = margins(scene, specimen.size());
-  const auto* loading = std::get_if<scene::Loading>(&scene.motion);
-  for (int d = 0; d < 2; ++d) {
-    const double h = specimen.size()[d] / specimen.cells()[d];
-    layout.geometry.spacing[d] = h;
-    layout.location_size[d] = h / per_cell;
-    before[d] += LocalIndex(std::ceil(margin[2 * d] / h - 1e-9));
-    after[d] += LocalIndex(std::ceil(margin[2 * d + 1] / h - 1e-9));
-  }
-  const LocalIndex nx = specimen.count()[0], ny = specimen.count()[1];
-  if (loading && loading->load_cell) {
-    const int axis = axis_of(loading->piston);
-    const LocalIndex cells = loading->load_cell->cells;
-    (upper_of(loading->piston) ? before : after)[axis] += cells;
-    Layout::LoadCellBox box{{{0, 0}, {nx, ny}}, loading->load_cell->stiffness_ratio};
-    const LocalIndex layers = cells * per_cell;
-    if (upper_of(loading->piston)) {
-      box.locations.lower[axis] = -layers;
-      box.locations.upper[axis] = 0;
-    } else {
-      box.locations.lower[axis] = axis == 0 ? nx : ny;
-      box.locations.upper[axis] += layers;
-    }
-    layout.load_cell = box;
-  }
-  // The specimen's lower left corner is the origin of coordinates.
-  for (int d = 0; d < 2; ++d) {
-    layout.padding[d] = before[d];
-    layout.specimen_lower[d] = 0;
-    layout.geometry.origin[d] = -before[d] * layout.geometry.spacing[d];
-    layout.geometry.nodes[d] = before[d] + specimen.cells()[d] + after[d] + 1;
-  }
+  return strain > 0 ? piston.time_of(strain * length) : 0.0;
+}
 
+template <int Dim>
+Layout<Dim> make_layout(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen)
+{
+  Layout<Dim> layout;
+  layout.per_cell = specimen.particles_per_cell();
+  lay_grid(scene, specimen, layout);
   layout.particle_volume =
-      layout.location_size[0] * layout.location_size[1] * scene.numerics.thickness;
-  layout.largest_particle_mass = 0;
-  layout.wave_speed = 0;
+      layout.location_size.prod() * (Dim == 2 ? scene.numerics.thickness : 1.0);
+  const auto* loading = loading_of(scene);
   layout.largest_speed = std::max(loading ? loading->speed : 0, specimen.largest_initial_speed());
-  for (std::size_t k = 0; k < scene.materials.size(); ++k) {
-    const scene::Material& material = scene.materials[k];
-    if (material.law == scene::Law::rigid) {
-      if (specimen.particles_of_material()[k] > 0)
-        layout.largest_speed = std::max(layout.largest_speed, fastest(material.velocity));
-      continue;
-    }
-    if (specimen.particles_of_material()[k] == 0) continue;
-    layout.largest_particle_mass =
-        std::max(layout.largest_particle_mass, material.density * layout.particle_volume);
-    layout.wave_speed =
-        std::max(layout.wave_speed, make_law(material, scene.numerics.plane)->wave_speed());
-  }
-  if (layout.load_cell) {
-    const scene::Material cell = load_cell_material(scene, layout.load_cell->density_ratio);
-    layout.largest_particle_mass =
-        std::max(layout.largest_particle_mass, cell.density * layout.particle_volume);
-    layout.wave_speed =
-        std::max(layout.wave_speed, make_law(cell, scene.numerics.plane)->wave_speed());
-  }
+  measure_materials(scene, specimen, layout);
   layout.cfl = default_cfl(scene.numerics);
   if (loading) {
-    const int axis = axis_of(loading->piston);
-    const double crossing = specimen.size()[axis] / layout.wave_speed;
+    const double length = specimen.size()[axis_of(loading->piston)];
+    const double crossing = length / layout.wave_speed;
     layout.piston = {loading->speed, loading->ramp_time.value_or(crossings_of_start * crossing)};
-    layout.end_time = time_of_strain(scene, specimen, layout.piston, loading->strain);
+    layout.end_time = time_of_strain(layout.piston, length, loading->strain);
   } else {
     layout.end_time = std::get<scene::FreeMotion>(scene.motion).end_time;
   }
   return layout;
 }
 
-double time_of_strain(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
-                      const WallMotion& piston, double strain)
-{
-  const int axis = axis_of(std::get<scene::Loading>(scene.motion).piston);
-  return strain > 0 ? piston.time_of(strain * specimen.size()[axis]) : 0.0;
-}
+template Layout<2> make_layout(const scene::Scene&, const micrograph::Specimen<2>&);
+template Layout<3> make_layout(const scene::Scene&, const micrograph::Specimen<3>&);
 
 }  // namespace mpm

@@ -1,8 +1,6 @@
 #include <mpm/core/error.hpp>
 #include <mpm/parallel/session.hpp>
-#include <mpm/simulation/model.hpp>
-
-#include "placement.hpp"
+#include <mpm/simulation/method.hpp>
 
 namespace mpm {
 
@@ -39,20 +37,23 @@ double default_cfl(const scene::Numerics& numerics)
   return share[int(numerics.shape_function)] * stable_cfl(numerics);
 }
 
-std::unique_ptr<UpdateOrder<2>> make_update_order(const scene::Numerics& numerics)
+template <int Dim>
+std::unique_ptr<UpdateOrder<Dim>> make_update_order(const scene::Numerics& numerics)
 {
   switch (numerics.update_order) {
     case scene::UpdateOrder::musl:
-      return make_musl<2>();
+      return make_musl<Dim>();
     case scene::UpdateOrder::usf:
-      return make_usf<2>();
+      return make_usf<Dim>();
     case scene::UpdateOrder::usl:
-      return make_usl<2>();
+      return make_usl<Dim>();
   }
   throw InputError("unknown update order");
 }
 
-std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int particles_per_cell)
+template <int Dim>
+std::unique_ptr<Transfer<Dim>> make_transfer(const scene::Numerics& numerics,
+                                             int particles_per_cell)
 {
   const auto shape = [&] {
     switch (numerics.shape_function) {
@@ -78,12 +79,13 @@ std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int 
     }
     throw InputError("unknown transfer scheme");
   };
-  return make_transfer<2>(shape(), scheme(), particles_per_cell);
+  return make_transfer<Dim>(shape(), scheme(), particles_per_cell);
 }
 
-PartitionRules<2> partition_rules(const scene::Scene& scene)
+template <int Dim>
+PartitionRules<Dim> partition_rules(const scene::Scene& scene)
 {
-  PartitionRules<2> rules;
+  PartitionRules<Dim> rules;
   switch (scene.numerics.decomposition) {
     case scene::DecompositionKind::automatic:
       rules.kind = PartitionKind::automatic;
@@ -95,31 +97,40 @@ PartitionRules<2> partition_rules(const scene::Scene& scene)
       rules.kind = PartitionKind::metis;
       break;
   }
-  rules.ranks = {scene.numerics.ranks[0], scene.numerics.ranks[1]};
+  for (int d = 0; d < Dim; ++d) rules.ranks[d] = scene.numerics.ranks[std::size_t(d)];
   if (const auto* loading = std::get_if<scene::Loading>(&scene.motion))
     rules.keep_whole = axis_of(loading->piston);
   return rules;
 }
 
-Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene,
-                                    const micrograph::Specimen<2>& specimen, const Layout& layout)
+template <int Dim>
+Partition<Dim> first_partition(MPI_Comm comm, const scene::Scene& scene,
+                               const micrograph::Specimen<Dim>& specimen, const Layout<Dim>& layout)
 {
-  // Each rank counts its share of the locations.
-  const RowShare share{rank_of(comm), ranks_of(comm)};
   const auto particles = [&](const auto& visit) {
-    for_each_particle_cell(scene, specimen, layout, share, visit);
+    for_each_particle_cell(scene, specimen, layout, rank_of(comm), ranks_of(comm), visit);
   };
-  WorkMap<2> work(layout.geometry, ranks_of(comm));
-  particles([&](const IndexVec<2>& cell) { work.add(cell); });
+  WorkMap<Dim> work(layout.geometry, ranks_of(comm));
+  particles([&](const IndexVec<Dim>& cell) { work.add(cell); });
   work.sum_over_ranks(comm);
-  const auto loads_under = [&](const Ownership<2>& ownership) {
-    std::vector<double> loads = loads_of<2>(ownership, particles);
+  const auto loads_under = [&](const Ownership<Dim>& ownership) {
+    std::vector<double> loads = loads_of<Dim>(ownership, particles);
     sum_over_ranks(comm, loads);
     return loads;
   };
-  return {comm, choose_partition<2>(layout.geometry, ranks_of(comm), partition_rules(scene), work,
-                                    loads_under, nullptr)
-                    .ownership};
+  return choose_partition<Dim>(layout.geometry, ranks_of(comm), partition_rules<Dim>(scene), work,
+                               loads_under, nullptr);
 }
+
+template std::unique_ptr<UpdateOrder<2>> make_update_order(const scene::Numerics&);
+template std::unique_ptr<UpdateOrder<3>> make_update_order(const scene::Numerics&);
+template std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics&, int);
+template std::unique_ptr<Transfer<3>> make_transfer(const scene::Numerics&, int);
+template PartitionRules<2> partition_rules(const scene::Scene&);
+template PartitionRules<3> partition_rules(const scene::Scene&);
+template Partition<2> first_partition(MPI_Comm, const scene::Scene&, const micrograph::Specimen<2>&,
+                                      const Layout<2>&);
+template Partition<3> first_partition(MPI_Comm, const scene::Scene&, const micrograph::Specimen<3>&,
+                                      const Layout<3>&);
 
 }  // namespace mpm

@@ -1,18 +1,17 @@
 #include <mpm/conditions/rigid_body.hpp>
-#include <mpm/core/error.hpp>
+#include <mpm/parallel/session.hpp>
+#include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
-#include <mpm/transfer/scheme.hpp>
 
 #include <algorithm>
 #include <cmath>
-
-#include "placement.hpp"
 
 namespace mpm {
 
 namespace {
 
 using micrograph::Lattice;
+using micrograph::Specimen;
 
 ReactionBook book_of(const scene::Numerics& numerics)
 {
@@ -21,180 +20,217 @@ ReactionBook book_of(const scene::Numerics& numerics)
 }
 
 /// Adds the particles of one body that lie in this rank's cells.
+template <int Dim>
 class BodyFiller {
  public:
-  BodyFiller(Body<2>& body, const Layout& layout, const Decomposition<2>& decomposition,
-             int per_cell)
-      : body_(body), layout_(layout), decomposition_(decomposition), per_cell_(per_cell)
+  BodyFiller(Body<Dim>& body, const Layout<Dim>& layout, const Decomposition<Dim>& decomposition)
+      : body_(body),
+        layout_(layout),
+        decomposition_(decomposition),
+        position_(body.particles.motion().find("position")),
+        velocity_(body.particles.motion().find("velocity")),
+        mass_(body.particles.motion().find("mass"))
   {
-  }
-
-  /// The part of a box of locations outside of which this rank has no cells.
-  IndexBox<2> nearby(const IndexBox<2>& locations) const
-  {
-    IndexBox<2> near = decomposition_.owned(decomposition_.rank());
-    for (int d = 0; d < 2; ++d) {
-      near.lower[d] = (near.lower[d] - layout_.padding[d]) * per_cell_;
-      near.upper[d] = (near.upper[d] - layout_.padding[d]) * per_cell_;
-    }
-    return intersection(locations, near);
   }
 
   /// Whether a location lies in this rank's cells.
-  bool is_home(int i, int j) const
+  bool is_home(const IndexVec<Dim>& at) const
   {
-    const IndexVec<2> cell(cell_of_location(layout_, per_cell_, i, 0),
-                           cell_of_location(layout_, per_cell_, j, 1));
-    return decomposition_.owner_of_cell(cell) == decomposition_.rank();
+    return decomposition_.owner_of_cell(layout_.cell_of_location(at)) == decomposition_.rank();
   }
 
-  void add(int i, int j, GlobalIndex id, const std::array<double, 2>& velocity)
+  void add(const IndexVec<Dim>& at, GlobalIndex id, const scene::PerAxis<double>& velocity)
   {
-    if (!is_home(i, j)) return;
-    ParticleStore& particles = body_.particles;
-    const LocalIndex p = particles.add(id);
-    ColumnGroup& motion = particles.motion();
-    const int at = motion.find("position"), v = motion.find("velocity");
-    motion(at, p) = (i + 0.5) * layout_.location_size[0];
-    motion(at + 1, p) = (j + 0.5) * layout_.location_size[1];
-    motion(v, p) = velocity[0];
-    motion(v + 1, p) = velocity[1];
-    motion(motion.find("mass"), p) = body_.density * layout_.particle_volume;
-    particles.state()(0, p) = layout_.particle_volume;
-    body_.law->initialise(particles.state(), p);
+    const LocalIndex p = body_.particles.add(id);
+    ColumnGroup& motion = body_.particles.motion();
+    for (int d = 0; d < Dim; ++d) {
+      motion(position_ + d, p) = (at[d] + 0.5) * layout_.location_size[d];
+      motion(velocity_ + d, p) = velocity[std::size_t(d)];
+    }
+    motion(mass_, p) = body_.density * layout_.particle_volume;
+    body_.particles.state()(0, p) = layout_.particle_volume;
+    body_.law->initialise(body_.particles.state(), p);
   }
 
  private:
-  Body<2>& body_;
-  const Layout& layout_;
-  const Decomposition<2>& decomposition_;
-  int per_cell_;
+  Body<Dim>& body_;
+  const Layout<Dim>& layout_;
+  const Decomposition<Dim>& decomposition_;
+  int position_, velocity_, mass_;
 };
 
-Body<2> empty_body(const scene::Material& material, int index, const scene::Scene& scene,
-                   const Transfer<2>& transfer)
+/// The part of a box of locations outside of which this rank has no cells.
+template <int Dim>
+IndexBox<Dim> nearby(const IndexBox<Dim>& locations, const Layout<Dim>& layout,
+                     const Decomposition<Dim>& decomposition)
 {
-  auto law = make_law(material, scene.numerics.plane);
-  auto state = law->state_columns();
-  const bool musl = scene.numerics.update_order == scene::UpdateOrder::musl;
-  ParticleStore particles(
-      transfer.motion_columns(musl), std::move(state),
-      {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume", "plastic_work"});
-  return {material.name, index, material.density, std::move(law), std::move(particles)};
+  IndexBox<Dim> near = decomposition.owned(decomposition.rank());
+  near.lower = (near.lower - layout.padding) * layout.per_cell;
+  near.upper = (near.upper - layout.padding) * layout.per_cell;
+  return intersection(locations, near);
 }
 
-WallGrip grip_of(scene::Grip grip)
+template <int Dim>
+Body<Dim> empty_body(const scene::Material& material, int index, const scene::Scene& scene,
+                     const typename UpdatedLagrangian<Dim>::Setup& setup)
 {
-  return grip == scene::Grip::stick ? WallGrip::stick : WallGrip::slip;
+  auto law = law_of<Dim>(material, scene);
+  ParticleStore particles = empty_store(*setup.transfer, *setup.order, *law);
+  return {material.name, index, material.density(), std::move(law), std::move(particles)};
 }
 
-void add_apparatus(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
-                   const Layout& layout, Model& model)
+template <int Dim>
+void fill_body(Body<Dim>& body, const scene::Scene& scene, const Lattice<Dim>& lattice,
+               const Layout<Dim>& layout, const Decomposition<Dim>& decomposition)
+{
+  constexpr scene::PerAxis<double> at_rest{};
+  BodyFiller<Dim> filler(body, layout, decomposition);
+  const auto visit_home = [&](const auto& visit) {
+    std::size_t place = 0;
+    for_each_index(lattice.part, [&](const IndexVec<Dim>& at) {
+      if (lattice.material[place] == body.material && filler.is_home(at)) visit(at, place);
+      ++place;
+    });
+  };
+  LocalIndex count = 0;
+  visit_home([&](const IndexVec<Dim>&, std::size_t) { ++count; });
+  body.particles.reserve(count);
+  visit_home([&](const IndexVec<Dim>& at, std::size_t place) {
+    const int shape = lattice.shape.empty() ? -1 : lattice.shape[place];
+    filler.add(at, lattice.id(at),
+               shape < 0 ? at_rest : scene.specimen.shapes[std::size_t(shape)].velocity);
+  });
+  body.particles.seal();
+}
+
+/// Of all ranks, each of which looks at its slab. Collective.
+template <int Dim>
+std::vector<Vec<Dim>> points_of(int material, const Specimen<Dim>& specimen,
+                                const Layout<Dim>& layout, MPI_Comm comm)
+{
+  const IndexBox<Dim> own = micrograph::slab(specimen.whole(), rank_of(comm), ranks_of(comm));
+  const Lattice<Dim> lattice = specimen.lattice(own);
+  std::vector<double> coordinates;
+  std::size_t place = 0;
+  for_each_index(own, [&](const IndexVec<Dim>& at) {
+    if (lattice.material[place++] != material) return;
+    for (int d = 0; d < Dim; ++d) coordinates.push_back((at[d] + 0.5) * layout.location_size[d]);
+  });
+  const std::vector<double> all = joined_over_ranks(comm, coordinates);
+  std::vector<Vec<Dim>> points(all.size() / Dim);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    for (int d = 0; d < Dim; ++d) points[k][d] = all[k * Dim + d];
+  return points;
+}
+
+template <int Dim>
+void add_apparatus(const scene::Scene& scene, const Specimen<Dim>& specimen,
+                   const Layout<Dim>& layout, Model<Dim>& model)
 {
   const auto& loading = std::get<scene::Loading>(scene.motion);
-  const ReactionBook book = book_of(scene.numerics);
-  const auto wall = [&](int axis, bool upper, double position, const WallMotion& motion,
-                        WallGrip grip) {
-    auto made = std::make_unique<RigidWall<2>>(RigidWall<2>::Placement{axis, upper, position},
-                                               motion, grip, book);
-    RigidWall<2>* pointer = made.get();
-    model.slots.conditions.push_back(std::move(made));
+  const WallGrip grip = loading.grip == scene::Grip::stick ? WallGrip::stick : WallGrip::slip;
+  const auto wall = [&](int axis, bool upper, double position, const WallMotion& motion) {
+    auto made =
+        std::make_unique<RigidWall<Dim>>(typename RigidWall<Dim>::Placement{axis, upper, position},
+                                         motion, grip, book_of(scene.numerics));
+    RigidWall<Dim>* pointer = made.get();
+    model.setup.slots.conditions.push_back(std::move(made));
     return pointer;
   };
-  Apparatus apparatus;
-  apparatus.axis = axis_of(loading.piston);
-  const int axis = apparatus.axis, lateral = 1 - axis;
+  Apparatus<Dim> apparatus;
+  const int axis = apparatus.axis = axis_of(loading.piston);
   const bool upper = upper_of(loading.piston);
   apparatus.length = specimen.size()[axis];
-  apparatus.area = specimen.size()[lateral] * scene.numerics.thickness;
-  double edge = upper ? 0 : specimen.size()[axis];
+  apparatus.area = Dim == 2 ? scene.numerics.thickness : 1.0;
+  for (int d = 0; d < Dim; ++d)
+    if (d != axis) apparatus.area *= specimen.size()[d];
+  double edge = upper ? 0 : apparatus.length;
   if (loading.load_cell)
     edge += (upper ? -1 : 1) * loading.load_cell->cells * layout.geometry.spacing[axis];
   const WallMotion inwards{upper ? -layout.piston.speed : layout.piston.speed,
                            layout.piston.ramp_time};
-  apparatus.piston =
-      wall(axis, upper, upper ? specimen.size()[axis] : 0, inwards, grip_of(loading.grip));
-  apparatus.edge = wall(axis, !upper, edge, {}, grip_of(loading.grip));
-  for (int k = 0; k < 2; ++k)
-    if (loading.lateral[k] != scene::Lateral::free)
-      apparatus.lateral[k] =
-          wall(lateral, k == 1, k == 1 ? specimen.size()[lateral] : 0, {}, WallGrip::slip);
-  model.apparatus = apparatus;
+  apparatus.piston = wall(axis, upper, upper ? apparatus.length : 0, inwards);
+  apparatus.edge = wall(axis, !upper, edge, {});
+  apparatus.at_rest.push_back(apparatus.edge);
+  if (layout.load_cell) apparatus.load_cell_body = int(model.setup.bodies.size()) - 1;
+  model.apparatus = std::move(apparatus);
 }
 
-void add_sides(const scene::Scene& scene, const micrograph::Specimen<2>& specimen, Model& model)
+/// Rigid and symmetric sides of the grid. Beside a piston's travel both only keep particles in.
+template <int Dim>
+void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, Model<Dim>& model)
 {
-  const auto& motion = std::get<scene::FreeMotion>(scene.motion);
-  for (int k = 0; k < 4; ++k) {
-    if (motion.sides[k] == scene::Lateral::free) continue;
-    const int axis = k / 2;
-    const bool upper = k % 2 == 1;
-    model.slots.conditions.push_back(std::make_unique<RigidWall<2>>(
-        RigidWall<2>::Placement{axis, upper, upper ? specimen.size()[axis] : 0.0}, WallMotion{},
-        motion.sides[k] == scene::Lateral::rigid ? WallGrip::stick : WallGrip::slip,
-        book_of(scene.numerics)));
-  }
+  for (int axis = 0; axis < Dim; ++axis)
+    for (const bool upper : {false, true}) {
+      const auto side = side_of(scene, axis, upper);
+      if (!side || *side == scene::Lateral::free || *side == scene::Lateral::periodic) continue;
+      const bool sticks = *side == scene::Lateral::rigid && !model.apparatus;
+      auto wall = std::make_unique<RigidWall<Dim>>(
+          typename RigidWall<Dim>::Placement{axis, upper, upper ? specimen.size()[axis] : 0.0},
+          WallMotion{}, sticks ? WallGrip::stick : WallGrip::slip, book_of(scene.numerics));
+      if (model.apparatus) model.apparatus->at_rest.push_back(wall.get());
+      model.setup.slots.conditions.push_back(std::move(wall));
+    }
 }
 
 }  // namespace
 
-Model make_model(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
-                 const Layout& layout, const Decomposition<2>& decomposition)
+template <int Dim>
+ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrder<Dim>& order,
+                          const Law<Dim>& law)
 {
-  Model model;
-  model.transfer = make_transfer(scene.numerics, specimen.particles_per_cell());
-  const int per_cell = specimen.particles_per_cell();
+  return {
+      transfer.motion_columns(order.needs().remap),
+      law.state_columns(),
+      {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume", "plastic_work"}};
+}
+
+template <int Dim>
+Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
+                      const Layout<Dim>& layout, const Decomposition<Dim>& decomposition)
+{
+  Model<Dim> model;
+  auto& setup = model.setup;
+  setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
+  setup.order = make_update_order<Dim>(scene.numerics);
+  setup.mass_cut = 1e-24 * layout.largest_particle_mass;
+  const Lattice<Dim> lattice = specimen.lattice(nearby(specimen.whole(), layout, decomposition));
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
     const scene::Material& material = scene.materials[k];
     if (specimen.particles_of_material()[k] == 0) continue;
-    if (material.law == scene::Law::rigid) {
-      std::vector<Vec<2>> points;
-      const Lattice<2> lattice = specimen.lattice(specimen.whole());
-      for_each_index(lattice.part, [&](const IndexVec<2>& at) {
-        if (lattice(at) == std::int8_t(k))
-          points.push_back(
-              {(at[0] + 0.5) * layout.location_size[0], (at[1] + 0.5) * layout.location_size[1]});
-      });
-      model.slots.conditions.push_back(std::make_unique<RigidBody<2>>(
-          std::move(points), Vec<2>(0.5 * layout.location_size[0], 0.5 * layout.location_size[1]),
-          std::array{WallMotion{material.velocity[0]}, WallMotion{material.velocity[1]}},
-          book_of(scene.numerics)));
+    if (material.law->deformable()) {
+      setup.bodies.push_back(empty_body<Dim>(material, int(k), scene, setup));
+      fill_body(setup.bodies.back(), scene, lattice, layout, decomposition);
       continue;
     }
-    Body<2>& body = model.bodies.emplace_back(empty_body(material, int(k), scene, *model.transfer));
-    BodyFiller filler(body, layout, decomposition, per_cell);
-    const Lattice<2> lattice = specimen.lattice(filler.nearby(specimen.whole()));
-    LocalIndex count = 0;
-    for_each_index(lattice.part, [&](const IndexVec<2>& at) {
-      count += lattice(at) == std::int8_t(k) && filler.is_home(at[0], at[1]);
-    });
-    body.particles.reserve(count);
-    for_each_index(lattice.part, [&](const IndexVec<2>& at) {
-      if (lattice(at) == std::int8_t(k))
-        filler.add(at[0], at[1], lattice.id(at),
-                   initial_velocity(scene, lattice, lattice.place(at)));
-    });
-    body.particles.seal();
+    std::array<WallMotion, Dim> motion;
+    for (int d = 0; d < Dim; ++d)
+      motion[d].speed = material.values.vector("velocity")[std::size_t(d)];
+    setup.slots.conditions.push_back(std::make_unique<RigidBody<Dim>>(
+        points_of(int(k), specimen, layout, decomposition.comm()), 0.5 * layout.location_size,
+        motion, book_of(scene.numerics)));
   }
   if (layout.load_cell) {
     const scene::Material material = load_cell_material(scene, layout.load_cell->density_ratio);
-    Body<2>& body = model.bodies.emplace_back(
-        empty_body(material, int(scene.materials.size()), scene, *model.transfer));
-    BodyFiller filler(body, layout, decomposition, per_cell);
-    const IndexBox<2>& box = layout.load_cell->locations;
-    for_each_index(filler.nearby(box), [&](const IndexVec<2>& at) {
-      filler.add(at[0], at[1], specimen.locations() + number_in(box, at), {0, 0});
+    setup.bodies.push_back(empty_body<Dim>(material, int(scene.materials.size()), scene, setup));
+    BodyFiller<Dim> filler(setup.bodies.back(), layout, decomposition);
+    const IndexBox<Dim>& box = layout.load_cell->locations;
+    for_each_index(nearby(box, layout, decomposition), [&](const IndexVec<Dim>& at) {
+      if (filler.is_home(at)) filler.add(at, specimen.locations() + number_in(box, at), {});
     });
-    body.particles.seal();
+    setup.bodies.back().particles.seal();
   }
-
-  if (std::holds_alternative<scene::Loading>(scene.motion)) {
+  if (std::holds_alternative<scene::Loading>(scene.motion))
     add_apparatus(scene, specimen, layout, model);
-    if (layout.load_cell) model.apparatus->load_cell_body = int(model.bodies.size()) - 1;
-  } else {
-    add_sides(scene, specimen, model);
-  }
+  add_sides(scene, specimen, model);
   return model;
 }
+
+template Model<2> make_model(const scene::Scene&, const Specimen<2>&, const Layout<2>&,
+                             const Decomposition<2>&);
+template Model<3> make_model(const scene::Scene&, const Specimen<3>&, const Layout<3>&,
+                             const Decomposition<3>&);
+template ParticleStore empty_store(const Transfer<2>&, const UpdateOrder<2>&, const Law<2>&);
+template ParticleStore empty_store(const Transfer<3>&, const UpdateOrder<3>&, const Law<3>&);
 
 }  // namespace mpm

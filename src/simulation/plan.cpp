@@ -1,9 +1,12 @@
-#include <mpm/simulation/run.hpp>
+#include <mpm/parallel/session.hpp>
+#include <mpm/simulation/method.hpp>
+#include <mpm/simulation/model.hpp>
+#include <mpm/simulation/preparation.hpp>
+#include <mpm/stepping/time_step.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-#include "placement.hpp"
 #include <fmt/format.h>
 
 namespace mpm {
@@ -12,9 +15,11 @@ namespace {
 
 /// Nanoseconds per particle and step on one core of a 2.6 GHz server processor of 2023 with 512-bit
 /// vectors: the order of magnitude of a run time, measured with the shipped block scenes.
+template <int Dim>
 double typical_cost(const scene::Numerics& numerics)
 {
-  return numerics.shape_function == scene::ShapeFunction::linear ? 35 : 50;
+  const bool linear = numerics.shape_function == scene::ShapeFunction::linear;
+  return Dim == 2 ? (linear ? 35 : 50) : (linear ? 60 : 120);
 }
 
 const char* name_of(scene::ShapeFunction s)
@@ -46,31 +51,36 @@ std::string duration(double seconds)
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-/// Shape of the partition and its balance at the start.
-std::string ranks_text(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
-                       const Layout& layout, const Ownership<2>& ownership)
+template <class Values>
+std::string product(const Values& values, int count, const char* format = "{}")
 {
+  std::string text;
+  for (int d = 0; d < count; ++d)
+    text += (d ? " x " : "") + fmt::format(fmt::runtime(format), values[d]);
+  return text;
+}
+
+/// Shape of the partition and its balance at the start.
+template <int Dim>
+std::string ranks_text(const Partition<Dim>& partition)
+{
+  const Ownership<Dim>& ownership = partition.ownership;
   if (ownership.ranks() == 1) return "1";
-  const std::vector<double> loads = loads_of<2>(ownership, [&](const auto& visit) {
-    for_each_particle_cell(scene, specimen, layout, {}, visit);
-  });
-  const IndexVec<2> grid = ownership.ranks_per_axis();
-  return fmt::format(
-      "{}; busiest {:.3f} of the mean",
-      ownership.by_cuts()
-          ? fmt::format("{} x {}", grid[0], grid[1])
-          : fmt::format("{}, blocks of {} x {} cells mapped by METIS", ownership.ranks(),
-                        ownership.block_edge(), ownership.block_edge()),
-      imbalance_of(loads));
+  const IndexVec<Dim> edges = IndexVec<Dim>::Constant(ownership.block_edge());
+  return fmt::format("{}; busiest {:.3f} of the mean",
+                     ownership.by_cuts() ? product(ownership.ranks_per_axis(), Dim)
+                                         : fmt::format("{}, blocks of {} cells mapped by METIS",
+                                                       ownership.ranks(), product(edges, Dim)),
+                     partition.imbalance());
 }
 
 std::vector<std::string> left_out(const scene::Scene& scene)
 {
   std::vector<std::string> list;
   const auto* loading = std::get_if<scene::Loading>(&scene.motion);
-  const auto deformable = [](const scene::Material& m) { return m.law != scene::Law::rigid; };
+  const auto deformable = [](const scene::Material& m) { return m.law->deformable(); };
   if (std::ranges::none_of(scene.materials,
-                           [](const scene::Material& m) { return m.law == scene::Law::von_mises; }))
+                           [](const scene::Material& m) { return m.law->has("yield_stress"); }))
     list.push_back("plasticity");
   if (loading && !loading->load_cell) list.push_back("load cell");
   if (scene.numerics.update_order != scene::UpdateOrder::musl) list.push_back("re-mapping pass");
@@ -83,70 +93,72 @@ std::vector<std::string> left_out(const scene::Scene& scene)
   return list;
 }
 
-}  // namespace
-
-double first_time_step(const Layout& layout)
+template <int Dim>
+double bytes_per_particle(const scene::Scene& scene, const Transfer<Dim>& transfer,
+                          const UpdateOrder<Dim>& order)
 {
-  return layout.cfl * layout.geometry.smallest_spacing() /
-         (layout.wave_speed + layout.largest_speed);
+  int largest = 0;
+  for (const scene::Material& material : scene.materials)
+    if (material.law->deformable())
+      largest = std::max(largest,
+                         empty_store(transfer, order, *law_of<Dim>(material, scene)).packed_size());
+  return sizeof(double) * double(largest);  // the id with the columns
 }
 
-std::string plan_text(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
-                      const Layout& layout, const Decomposition<2>& decomposition)
+}  // namespace
+
+template <int Dim>
+std::string plan_text(const Preparation<Dim>& preparation)
 {
-  const int ranks = decomposition.ranks();
+  const scene::Scene& scene = preparation.scene;
+  const micrograph::Specimen<Dim>& specimen = preparation.specimen;
+  const Layout<Dim>& layout = preparation.layout;
+  const int ranks = ranks_of(preparation.comm);
   double particles = layout.load_cell ? double(layout.load_cell->locations.size()) : 0;
   for (std::size_t k = 0; k < scene.materials.size(); ++k)
-    if (scene.materials[k].law != scene::Law::rigid)
+    if (scene.materials[k].law->deformable())
       particles += double(specimen.particles_of_material()[k]);
-  const double dt = first_time_step(layout);
+  const double dt = TimeStep(layout.cfl, layout.geometry.smallest_spacing(), layout.wave_speed,
+                             layout.largest_speed)
+                        .first();
   double steps = std::ceil(layout.end_time / dt);
   if (scene.steps) steps = std::min(steps, double(*scene.steps));
-
-  const auto transfer = make_transfer(scene.numerics, specimen.particles_per_cell());
-  int particle_columns = 1;  // id
-  for (const Column& c :
-       transfer->motion_columns(scene.numerics.update_order == scene::UpdateOrder::musl))
-    particle_columns += c.components;
-  int state_columns = 0;
-  for (const scene::Material& material : scene.materials) {
-    if (material.law == scene::Law::rigid) continue;
-    int columns = 0;
-    for (const Column& c : make_law(material, scene.numerics.plane)->state_columns())
-      columns += c.components;
-    state_columns = std::max(state_columns, columns);
-  }
-  const double bytes_per_particle = 8.0 * (particle_columns + state_columns);
-  constexpr double bytes_per_node = 8.0 * (1 + 4 + 4 + 2 + 4);
-  const double nodes = double(layout.geometry.nodes[0]) * layout.geometry.nodes[1];
+  const auto transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
+  const auto order = make_update_order<Dim>(scene.numerics);
+  const double per_particle = bytes_per_particle(scene, *transfer, *order);
+  const double per_node = NodeFields<Dim>::bytes_per_node(order->needs());
+  const double nodes = layout.geometry.nodes.template cast<double>().prod();
 
   std::string text;
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<18} {}\n", what, value);
   };
+  const auto& densities = specimen.densities();
   text += fmt::format("{}\n", scene.title.empty() ? scene.name : scene.title);
-  line("specimen",
-       fmt::format("{:.4g} x {:.4g} mm, relative density {:.4f}", 1e3 * specimen.size()[0],
-                   1e3 * specimen.size()[1], specimen.densities().front().value));
-  for (std::size_t k = 1; k < specimen.densities().size(); ++k)
-    line("", fmt::format("{}: {:.4f}, {:.0f} kg/m3", specimen.densities()[k].window,
-                         specimen.densities()[k].value, specimen.densities()[k].bulk_density));
+  line("specimen", fmt::format("{} mm, relative density {:.4f}",
+                               product(Vec<Dim>(1e3 * specimen.size()), Dim, "{:.4g}"),
+                               densities.front().value));
+  for (std::size_t k = 1; k < densities.size(); ++k)
+    line("", fmt::format("{}: {:.4f}, {:.0f} kg/m3", densities[k].window, densities[k].value,
+                         densities[k].bulk_density));
   if (specimen.picture())
     line("picture", fmt::format("relative density {:.4f}", specimen.picture()->density));
-  line("bulk density", fmt::format("{:.1f} kg/m3", specimen.densities().front().bulk_density));
-  line("grid", fmt::format("{} x {} cells of {:.4g} x {:.4g} um, {} x {} locations per cell",
-                           specimen.cells()[0], specimen.cells()[1],
-                           1e6 * layout.geometry.spacing[0], 1e6 * layout.geometry.spacing[1],
-                           specimen.particles_per_cell(), specimen.particles_per_cell()));
+  line("bulk density", fmt::format("{:.1f} kg/m3", densities.front().bulk_density));
+  line("grid",
+       fmt::format("{} cells of {} um, {} locations per cell", product(specimen.cells(), Dim),
+                   product(Vec<Dim>(1e6 * layout.geometry.spacing), Dim, "{:.4g}"),
+                   product(IndexVec<Dim>(IndexVec<Dim>::Constant(layout.per_cell)), Dim)));
   line("particles", fmt::format("{:.0f} of {} locations", particles, specimen.locations()));
-  line("method", fmt::format("{}, {}, {}, plane {}", name_of(scene.numerics.shape_function),
-                             name_of(scene.numerics.scheme), name_of(scene.numerics.update_order),
-                             scene.numerics.plane == scene::Plane::strain ? "strain" : "stress"));
+  const char* space = Dim == 3                                       ? "in space"
+                      : scene.numerics.plane == scene::Plane::strain ? "plane strain"
+                                                                     : "plane stress";
+  line("method",
+       fmt::format("{}, {}, {}, {}", name_of(scene.numerics.shape_function),
+                   name_of(scene.numerics.scheme), name_of(scene.numerics.update_order), space));
   for (const scene::Material& material : scene.materials)
-    if (material.law != scene::Law::rigid)
-      line("material",
-           fmt::format("{}: wave speed {:.0f} m/s, {:.0f} kg/m3", material.name,
-                       make_law(material, scene.numerics.plane)->wave_speed(), material.density));
+    if (material.law->deformable())
+      line("material", fmt::format("{}: wave speed {:.0f} m/s, {:.0f} kg/m3", material.name,
+                                   law_of<Dim>(material, scene)->wave_speed(), material.density()));
   std::string absent;
   for (const std::string& what : left_out(scene)) absent += (absent.empty() ? "" : ", ") + what;
   line("left out", absent.empty() ? "nothing" : absent);
@@ -154,15 +166,17 @@ std::string plan_text(const scene::Scene& scene, const micrograph::Specimen<2>& 
   // Compression makes waves faster and steps shorter on the way.
   line("steps", scene.steps ? fmt::format("{:.0f}, to t = {:.4g} s at most", steps, steps * dt)
                             : fmt::format("at least {:.0f}, to t = {:.4g} s", steps, steps * dt));
-  line("ranks", ranks_text(scene, specimen, layout, decomposition.ownership()));
-  line("memory", fmt::format("{:.0f} B per particle, {:.0f} B per node, {} in all",
-                             bytes_per_particle, bytes_per_node,
-                             memory(bytes_per_particle * particles + bytes_per_node * nodes)));
+  line("ranks", ranks_text(preparation.partition));
+  line("memory", fmt::format("{:.0f} B per particle, {:.0f} B per node, {} in all", per_particle,
+                             per_node, memory(per_particle * particles + per_node * nodes)));
   line("run time",
        fmt::format("about {} on {} rank{} (order of magnitude)",
-                   duration(1e-9 * typical_cost(scene.numerics) * particles * steps / ranks), ranks,
-                   ranks == 1 ? "" : "s"));
+                   duration(1e-9 * typical_cost<Dim>(scene.numerics) * particles * steps / ranks),
+                   ranks, ranks == 1 ? "" : "s"));
   return text;
 }
+
+template std::string plan_text(const Preparation<2>&);
+template std::string plan_text(const Preparation<3>&);
 
 }  // namespace mpm

@@ -11,6 +11,7 @@ namespace mpm {
 struct End {
   double value;
   bool included;
+  bool operator==(const End&) const = default;
 };
 
 struct Bound {
@@ -20,6 +21,7 @@ struct Bound {
   std::optional<std::string> violation(double value) const;
   /// `above -1 and below 0.5`; empty without ends.
   std::string text() const;
+  bool operator==(const Bound&) const = default;
 };
 
 constexpr Bound anything()

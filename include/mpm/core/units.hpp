@@ -1,6 +1,8 @@
 #pragma once
 /// Values with units, as people write them (`10.6 GPa`, `60 %`), to SI and back.
 
+#include <mpm/core/quantity.hpp>
+
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -9,18 +11,6 @@
 struct ut_system;
 
 namespace mpm {
-
-/// What a number measures, hence which units it may carry.
-enum class Quantity {
-  number,    ///< a plain number: a count, a gray level, a ratio
-  fraction,  ///< dimensionless, may be given in %
-  length,
-  time,
-  velocity,
-  pressure,
-  density,
-  angle
-};
 
 std::string_view noun(Quantity quantity);     ///< `a pressure`
 std::string_view example(Quantity quantity);  ///< `10.6 GPa`

@@ -30,6 +30,10 @@ class Summary {
   void set(std::string key, const char* value) { put(std::move(key), std::string(value)); }
   void set(std::string key, const std::optional<double>& value);
   void set(std::string key, std::vector<double> values) { put(std::move(key), std::move(values)); }
+  void set(std::string key, std::vector<std::int64_t> values)
+  {
+    put(std::move(key), std::move(values));
+  }
 
   /// The nested object of that name, made if it is not there; the reference stays valid as long as
   /// this summary lives and the key is not set to something else.
@@ -40,7 +44,7 @@ class Summary {
 
  private:
   using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string,
-                             std::vector<double>, std::unique_ptr<Summary>>;
+                             std::vector<double>, std::vector<std::int64_t>, std::unique_ptr<Summary>>;
   void put(std::string key, Value value);
 
   std::vector<std::pair<std::string, Value>> entries_;

@@ -33,6 +33,8 @@ void sum_over_ranks(MPI_Comm comm, std::span<double> values);
 void sum_over_ranks(MPI_Comm comm, std::span<GlobalIndex> values);
 double largest_over_ranks(MPI_Comm comm, double value);
 void largest_over_ranks(MPI_Comm comm, std::span<double> values);
+/// All ranks' values one after the other.
+std::vector<double> joined_over_ranks(MPI_Comm comm, std::span<const double> values);
 
 /// Runs `action` on every rank; if it throws anywhere, every rank throws the error of the lowest
 /// rank that failed. Collective: keeps ranks out of collectives that a failed one never reaches.

@@ -34,18 +34,6 @@ template <>
 inline constexpr auto names_of<Plane> = std::to_array<Named<Plane>>({{Plane::strain, "strain"},
                                                                      {Plane::stress, "stress"}});
 template <>
-inline constexpr auto names_of<Law> = std::to_array<Named<Law>>({{Law::isotropic, "isotropic"},
-                                                                 {Law::transversely_isotropic,
-                                                                  "transversely_isotropic"},
-                                                                 {Law::von_mises, "von_mises"},
-                                                                 {Law::rigid, "rigid"}});
-template <>
-inline constexpr auto names_of<StrainMeasure> = std::to_array<Named<StrainMeasure>>(
-    {{StrainMeasure::hencky, "hencky"}, {StrainMeasure::hypoelastic, "hypoelastic"}});
-template <>
-inline constexpr auto names_of<UniqueAxis> = std::to_array<Named<UniqueAxis>>(
-    {{UniqueAxis::out_of_plane, "out_of_plane"}, {UniqueAxis::in_plane, "in_plane"}});
-template <>
 inline constexpr auto names_of<Wall> = std::to_array<Named<Wall>>({{Wall::bright, "bright"},
                                                                    {Wall::dark, "dark"}});
 template <>

@@ -110,7 +110,7 @@ Parameter<Owner> property(std::string key, std::function<T(const Owner&)> get,
           Value<T>::describe(rule),
           traits.need,
           traits.default_text,
-          traits.decides || std::is_enum_v<T>,
+          traits.decides || is_choice<T>,
           [rule, get, set](const Given& given, Owner& owner, int dimensions) {
             Rule here = rule;
             here.dimensions = dimensions;

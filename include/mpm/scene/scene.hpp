@@ -2,6 +2,7 @@
 /// What a scene file says, in SI units, with every default filled in. Plain data: reading and
 /// checking live in reader.hpp.
 
+#include <mpm/materials/laws.hpp>
 #include <mpm/scene/plane_or_space.hpp>
 #include <mpm/scene/shapes.hpp>
 
@@ -24,34 +25,17 @@ constexpr bool upper_of(Side side)
 {
   return int(side) % 2 == 1;
 }
-enum class Plane { strain, stress };
+using Plane = PlaneAssumption;
 
 // ---------------------------------------------------------------------------- materials
 
-enum class Law {
-  isotropic,               ///< linear elastic, isotropic
-  transversely_isotropic,  ///< linear elastic, one unique (axial) axis
-  von_mises,               ///< isotropic elastic, perfectly plastic (or linear hardening)
-  rigid                    ///< moves with a prescribed velocity
-};
-enum class StrainMeasure { hencky, hypoelastic };
-enum class UniqueAxis { out_of_plane, in_plane };
-
+/// The keys beside `name` and `law` are the law's own (materials/laws.hpp).
 struct Material {
   std::string name = "cell_wall";
-  Law law = Law::von_mises;
-  StrainMeasure strain_measure = StrainMeasure::hencky;  ///< isotropic and von_mises only
-  double density = 0;                                    ///< kg/m^3
-  double youngs_modulus = 0;                             ///< Pa; transverse one if TI
-  double poisson_ratio = 0;                              ///< transverse one if TI
-  double yield_stress = 0;                               ///< Pa, von_mises
-  double hardening_modulus = 0;                          ///< Pa, von_mises
-  double axial_modulus = 0;                              ///< Pa, TI
-  double axial_poisson_ratio = 0;                        ///< -strain_T/strain_A, axial load, TI
-  double axial_shear_modulus = 0;                        ///< Pa, TI
-  UniqueAxis unique_axis = UniqueAxis::out_of_plane;     ///< TI
-  double axis_angle = 0;                                 ///< rad from +x, TI with in_plane
-  PerAxis<double> velocity{};                            ///< m/s, rigid
+  OneOf<LawRow> law = "von_mises";
+  ParameterValues values;
+  /// kg/m^3; 0 for a law without one.
+  double density() const { return values.has("density") ? values.number("density") : 0; }
   bool operator==(const Material&) const = default;
 };
 

@@ -6,7 +6,7 @@
 /// Value<T>::describe is the cell of the reference page.
 
 #include <mpm/core/bound.hpp>
-#include <mpm/core/nearest_name.hpp>
+#include <mpm/core/one_of.hpp>
 #include <mpm/core/units.hpp>
 #include <mpm/scene/names.hpp>
 #include <mpm/scene/problems.hpp>
@@ -51,8 +51,18 @@ inline constexpr std::string_view why_in_space =
 inline constexpr std::string_view why_in_plane =
     "as the scene lies in the plane: neither has specimen.size three components nor is "
     "specimen.depth given";
-/// `a`, `b` or `c`
+/// a, b or c
 std::string alternatives(const std::vector<std::string>& names);
+/// `a`, `b` or `c`
+std::string words_as_code(const std::vector<std::string>& names);
+/// Place of the given word among these; reports any other, with the nearest.
+std::optional<std::size_t> read_word(const Given& given, const std::vector<std::string>& names);
+
+/// Choices of a word decide which other keys there are.
+template <class T>
+inline constexpr bool is_choice = std::is_enum_v<T>;
+template <class Row>
+inline constexpr bool is_choice<OneOf<Row>> = true;
 
 template <>
 struct Value<double> {
@@ -104,28 +114,31 @@ requires std::is_enum_v<Choice>
 struct Value<Choice> {
   static bool read(const Given& given, const Rule&, Choice& value)
   {
-    const std::vector<std::string> names = all_names<Choice>();
-    if (!is_scalar(given, "must be " + alternatives(names))) return false;
-    for (const auto& named : names_of<Choice>) {
-      if (named.name != given.node.scalar) continue;
-      value = named.value;
-      return true;
-    }
-    std::string near;
-    if (const auto name = nearest_name(given.node.scalar, names))
-      near = "; did you mean '" + *name + "'?";
-    return given.refuse("must be " + alternatives(names) + near);
+    const auto place = read_word(given, all_names<Choice>());
+    if (place) value = names_of<Choice>[*place].value;
+    return place.has_value();
   }
   static Node write(const Choice& value, const Rule&)
   {
     return Node::of(std::string(name_of(value)));
   }
-  static std::string describe(const Rule&)
+  static std::string describe(const Rule&) { return words_as_code(all_names<Choice>()); }
+};
+
+/// A row of a list, by its keyword.
+template <class Row>
+struct Value<OneOf<Row>> {
+  static bool read(const Given& given, const Rule&, OneOf<Row>& value)
   {
-    std::vector<std::string> names;
-    for (const std::string& name : all_names<Choice>()) names.push_back('`' + name + '`');
-    return alternatives(names);
+    const auto place = read_word(given, keywords<Row>());
+    if (place) value = OneOf<Row>(list_of<Row>()[*place].keyword);
+    return place.has_value();
   }
+  static Node write(const OneOf<Row>& value, const Rule&)
+  {
+    return Node::of(std::string(value->keyword));
+  }
+  static std::string describe(const Rule&) { return words_as_code(keywords<Row>()); }
 };
 
 template <class T>

@@ -1,75 +1,48 @@
 #pragma once
-/// From a scene and its specimen to grid, bodies and conditions: the run before its first step.
+/// From a scene and its specimen to bodies and what acts on them: the run before its first step.
 
 #include <mpm/conditions/rigid_wall.hpp>
-#include <mpm/micrograph/specimen.hpp>
-#include <mpm/parallel/partition.hpp>
-#include <mpm/scene/scene.hpp>
+#include <mpm/simulation/layout.hpp>
 #include <mpm/stepping/updated_lagrangian.hpp>
+
+#include <optional>
+#include <vector>
 
 namespace mpm {
 
 /// Piston, fixed edge and what their reactions are divided by.
+template <int Dim>
 struct Apparatus {
-  RigidWall<2>* piston = nullptr;
-  RigidWall<2>* edge = nullptr;
-  std::array<RigidWall<2>*, 2> lateral{nullptr, nullptr};  ///< none where free
+  RigidWall<Dim>* piston = nullptr;
+  RigidWall<Dim>* edge = nullptr;
+  std::vector<const RigidWall<Dim>*> at_rest;  ///< fixed edge and lateral walls
   int axis = 0;
   double length = 0;  ///< m, of the specimen along the axis (without the load cell)
   double area = 0;    ///< m^2, reference cross-section
   int load_cell_body = -1;
+
+  double strain(double time) const
+  {
+    return std::abs(piston->motion().displacement(time)) / length;
+  }
 };
 
-/// Time at which the piston reaches a strain, s.
-double time_of_strain(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
-                      const WallMotion& piston, double strain);
-
-/// What does not depend on the rank.
-struct Layout {
-  GridGeometry<2> geometry;
-  std::array<double, 2> specimen_lower;  ///< m, where the lattice starts
-  std::array<double, 2> location_size;   ///< m
-  std::array<LocalIndex, 2> padding;     ///< cells left of and below the specimen
-  double particle_volume;                ///< m^3
-  double largest_particle_mass;          ///< kg
-  double wave_speed;                     ///< m/s, of the stiffest body
-  double cfl;
-  double largest_speed;  ///< m/s, piston or initial
-  /// Of the piston, towards the specimen; and the time at which it reaches the last strain, s.
-  WallMotion piston;
-  double end_time;
-  struct LoadCellBox {
-    IndexBox<2> locations;
-    double density_ratio;
-  };
-  std::optional<LoadCellBox> load_cell;  ///< in locations from the specimen's lower left corner
-};
-
-Layout make_layout(const scene::Scene& scene, const micrograph::Specimen<2>& specimen);
-
-/// The rank's share of the bodies, and conditions. Bodies: one per deformable material that has
-/// particles, then the load cell.
+/// The rank's share of the bodies, and what acts on them. Bodies: one per deformable material that
+/// has particles, then the load cell.
+template <int Dim>
 struct Model {
-  std::vector<Body<2>> bodies;
-  Slots<2> slots;
-  std::optional<Apparatus> apparatus;
-  std::unique_ptr<Transfer<2>> transfer;
+  typename UpdatedLagrangian<Dim>::Setup setup;
+  std::optional<Apparatus<Dim>> apparatus;
 };
 
-Model make_model(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
-                 const Layout& layout, const Decomposition<2>& decomposition);
+/// Collective.
+template <int Dim>
+Model<Dim> make_model(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+                      const Layout<Dim>& layout, const Decomposition<Dim>& decomposition);
 
-/// Law of a scene's material. A new law is one file and one line there.
-std::unique_ptr<Law<2>> make_law(const scene::Material& material, scene::Plane plane);
-
-double default_cfl(const scene::Numerics& numerics);
-std::unique_ptr<UpdateOrder<2>> make_update_order(const scene::Numerics& numerics);
-std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int particles_per_cell);
-
-/// Cuts across the piston's travel come first.
-PartitionRules<2> partition_rules(const scene::Scene& scene);
-/// Balanced by the particles at the start. Collective.
-Decomposition<2> make_decomposition(MPI_Comm comm, const scene::Scene& scene,
-                                    const micrograph::Specimen<2>& specimen, const Layout& layout);
+/// Columns of the particles of a law.
+template <int Dim>
+ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrder<Dim>& order,
+                          const Law<Dim>& law);
 
 }  // namespace mpm

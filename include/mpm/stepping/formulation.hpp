@@ -5,6 +5,7 @@
 #include <mpm/core/archive.hpp>
 #include <mpm/materials/law.hpp>
 #include <mpm/parallel/decomposition.hpp>
+#include <mpm/stepping/slots.hpp>
 
 #include <functional>
 #include <vector>
@@ -55,7 +56,9 @@ class Formulation {
 
   /// When a step leaves the stresses, counted from the moment of the velocities, in steps.
   virtual double stress_moment() const = 0;
-  /// s, the largest step that loads, contact and transport bear.
+  /// Loads, contact, conditions and transport.
+  virtual Slots<Dim>& slots() = 0;
+  /// s, the largest step that these bear.
   virtual double largest_step() const = 0;
 
   /// Whether cells, and the particles in them, can go to other ranks between steps.

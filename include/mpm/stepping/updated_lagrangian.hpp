@@ -34,6 +34,7 @@ class UpdatedLagrangian final : public Formulation<Dim> {
   const std::vector<Body<Dim>>& bodies() const override { return setup_.bodies; }
   const Decomposition<Dim>& decomposition() const override { return exchange_->decomposition(); }
   double stress_moment() const override { return setup_.order->stress_moment(); }
+  Slots<Dim>& slots() override { return setup_.slots; }
   double largest_step() const override { return setup_.slots.largest_step(); }
 
   bool can_repartition() const override { return true; }
@@ -47,7 +48,6 @@ class UpdatedLagrangian final : public Formulation<Dim> {
 
   const GridTopology<Dim>& grid() const { return exchange_->topology(); }
   const std::vector<NodeFields<Dim>>& fields() const { return fields_; }
-  Slots<Dim>& slots() { return setup_.slots; }
 
  private:
   void connect(Decomposition<Dim> decomposition);

@@ -20,7 +20,7 @@ class SpecimenOfPicture : public testing::Test {
   scene::Scene scene_of(const Rows& rows)
   {
     scene::Scene scene;
-    scene.materials = {scene::Material{.name = "wall", .density = 1500}};
+    scene.materials = {scene::Material{.name = "wall", .values = {{"density", 1500.0}}}};
     scene.specimen.micrograph.emplace();
     scene.specimen.micrograph->file = directory_.write("picture.bmp", gray_bmp(rows));
     scene.specimen.micrograph->pixel_size = {1e-6, 1e-6};
@@ -223,8 +223,8 @@ TEST_F(SpecimenOfPicture, SpecksAndLoosePiecesAreRemovedAndCounted)
 TEST_F(SpecimenOfPicture, BandsMapGrayRangesToMaterials)
 {
   scene::Scene scene = scene_of({{99, 100, 179, 180, 255}});
-  scene.materials = {scene::Material{.name = "lamella", .density = 1400},
-                     scene::Material{.name = "wall", .density = 1500}};
+  scene.materials = {scene::Material{.name = "lamella", .values = {{"density", 1400.0}}},
+                     scene::Material{.name = "wall", .values = {{"density", 1500.0}}}};
   scene.specimen.micrograph->bands = {{180, 256, "wall"}, {100, 180, "lamella"}};
   EXPECT_THAT(materials_of(scene), ElementsAre(-1, 0, 0, 1, 1));
   const Specimen<2> specimen = built(scene);

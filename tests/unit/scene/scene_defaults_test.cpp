@@ -29,11 +29,11 @@ TEST_F(SceneDefaults, WithoutMaterialTheWallIsNairns2006)
   const Scene scene = read(smallest);
   ASSERT_EQ(scene.materials.size(), 1u);
   const Material& wall = scene.materials[0];
-  EXPECT_EQ(wall.law, Law::von_mises);
-  EXPECT_EQ(wall.youngs_modulus, 10.6e9);
-  EXPECT_EQ(wall.poisson_ratio, 0.33);
-  EXPECT_EQ(wall.density, 1500);
-  EXPECT_EQ(wall.yield_stress, 500e6);
+  EXPECT_EQ(wall.law, "von_mises");
+  EXPECT_EQ(wall.values.number("youngs_modulus"), 10.6e9);
+  EXPECT_EQ(wall.values.number("poisson_ratio"), 0.33);
+  EXPECT_EQ(wall.density(), 1500);
+  EXPECT_EQ(wall.values.number("yield_stress"), 500e6);
 }
 
 TEST_F(SceneDefaults, SnapshotsAreSevenFromZeroToTheEnd)

@@ -25,7 +25,7 @@ TEST_F(Overrides, ReachListEntriesAndASingleMaterialByEitherName)
   for (const std::string& materials : {"material: " + wall, "materials:\n  - " + wall}) {
     for (const char* path : {"material.density", "materials[0].density"}) {
       const Scene scene = read(smallest + materials, {std::string(path) + "=700 kg/m^3"});
-      EXPECT_EQ(scene.materials.at(0).density, 700) << materials << path;
+      EXPECT_EQ(scene.materials.at(0).density(), 700) << materials << path;
     }
   }
 }

@@ -1,0 +1,87 @@
+#pragma once
+/// Scalars over time, with the checks that belong to them.
+
+#include <mpm/output/history.hpp>
+#include <mpm/simulation/measures.hpp>
+#include <mpm/simulation/model.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace mpm {
+
+/// One line of history.csv.
+struct HistoryLine {
+  double time = 0;              ///< s
+  double strain = 0;            ///< piston displacement / specimen length
+  double piston_stress = 0;     ///< Pa, mean since the last line, compression positive
+  double edge_stress = 0;       ///< Pa
+  double load_cell_stress = 0;  ///< Pa, where there is a load cell
+  GlobalIndex particles = 0;
+  double kinetic_energy = 0;  ///< J
+  double elastic_energy = 0;  ///< J
+  double plastic_work = 0;    ///< J
+  double external_work = 0;   ///< J, of all loads, contacts and conditions
+  /// What is too much in the energy balance, all of it at the moment of the velocities, / external
+  /// work.
+  double energy_error = 0;
+  /// |momentum gained - impulse from outside| / (sum of the impulses' sizes + momentum at the
+  /// start): rounding, unless something is lost.
+  double momentum_error = 0;
+  double time_step = 0;                              ///< s
+  GlobalIndex behind_piston = 0, outside_walls = 0;  ///< particles
+
+  /// The applied stress: mean of both ends, in which a wave on its way counts once.
+  double stress() const { return 0.5 * (piston_stress + edge_stress); }
+};
+
+/// What a history can have: stresses with a piston, one more with a load cell.
+struct HistoryKind {
+  bool piston = false, load_cell = false;
+};
+std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind);
+std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind);
+
+template <int Dim>
+class History {
+ public:
+  /// Measures the start. The apparatus' walls live as long as this. Collective.
+  History(Formulation<Dim>& formulation, std::optional<Apparatus<Dim>> apparatus);
+
+  HistoryKind kind() const;
+  /// Before the step that a line is recorded after: the energy balance needs both sides of it.
+  /// Collective.
+  void before_line();
+  /// After every step: the load cell's reading goes into the mean.
+  void observe();
+  /// Measures and checks. Collective. Throws NumericalError on every rank if particles were lost or
+  /// doubled or a number is no longer one; warns when a particle is more than one cell behind a
+  /// face.
+  const HistoryLine& record(double dt);
+
+  const std::vector<HistoryLine>& lines() const { return lines_; }
+  double deepest_behind_piston() const { return deepest_behind_piston_; }  ///< m, whole run
+  void archive(Archive& archive);
+
+ private:
+  MPI_Comm comm() const { return formulation_.decomposition().comm(); }
+  void take_reactions(HistoryLine& line);
+  void balance(HistoryLine& line, const ParticleSums<Dim>& sums);
+  void check(const ParticleSums<Dim>& sums, const HistoryLine& line) const;
+  void count_outside(HistoryLine& line);
+  void warn_of(const Penetration& found, const char* what) const;
+
+  Formulation<Dim>& formulation_;
+  std::optional<Apparatus<Dim>> apparatus_;
+  std::vector<HistoryLine> lines_;
+  ParticleSums<Dim> start_;
+  std::optional<double> stress_work_before_;  ///< J, before the last step
+  double external_work_ = 0;
+  Vec<Dim> impulse_ = Vec<Dim>::Zero();  ///< N s, from outside
+  double impulse_size_ = 0;              ///< N s, sum of the sizes
+  double last_time_ = 0;
+  AxialStress load_cell_;
+  double deepest_behind_piston_ = 0;
+};
+
+}  // namespace mpm

@@ -1,0 +1,30 @@
+#pragma once
+/// From the scene's words to the method: time step, shape function and scheme, update order,
+/// partition.
+
+#include <mpm/parallel/partition.hpp>
+#include <mpm/scene/scene.hpp>
+#include <mpm/simulation/layout.hpp>
+#include <mpm/stepping/update_order.hpp>
+
+namespace mpm {
+
+double default_cfl(const scene::Numerics& numerics);
+
+template <int Dim>
+std::unique_ptr<UpdateOrder<Dim>> make_update_order(const scene::Numerics& numerics);
+template <int Dim>
+std::unique_ptr<Transfer<Dim>> make_transfer(const scene::Numerics& numerics,
+                                             int particles_per_cell);
+
+/// Cuts across the piston's travel come first.
+template <int Dim>
+PartitionRules<Dim> partition_rules(const scene::Scene& scene);
+
+/// Balanced by the particles at the start, of which each rank counts its slab. Collective.
+template <int Dim>
+Partition<Dim> first_partition(MPI_Comm comm, const scene::Scene& scene,
+                               const micrograph::Specimen<Dim>& specimen,
+                               const Layout<Dim>& layout);
+
+}  // namespace mpm

@@ -1,0 +1,36 @@
+#pragma once
+/// Everything that is known of a run before it starts.
+
+#include <mpm/parallel/partition.hpp>
+#include <mpm/simulation/layout.hpp>
+
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+template <int Dim>
+struct Preparation {
+  const scene::Scene& scene;
+  micrograph::Specimen<Dim> specimen;
+  Layout<Dim> layout;
+  Partition<Dim> partition;  ///< of the particles at the start
+  MPI_Comm comm;
+
+  /// Collective. Throws InputError on every rank.
+  Preparation(MPI_Comm comm, const scene::Scene& scene, std::optional<micrograph::Picture> picture);
+
+  /// The scene with the values that the program has chosen: it repeats the run exactly.
+  scene::Scene effective_scene() const;
+};
+
+/// What will run, what is left out, and what it will take: the text of --check.
+template <int Dim>
+std::string plan_text(const Preparation<Dim>& preparation);
+
+/// How the scene would be shared out among each of these numbers of ranks: the text of
+/// --check --ranks. Looks at all particles on the rank that asks.
+template <int Dim>
+std::string rank_study_text(const Preparation<Dim>& preparation, const std::vector<int>& ranks);
+
+}  // namespace mpm

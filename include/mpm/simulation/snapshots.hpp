@@ -1,0 +1,23 @@
+#pragma once
+/// Pictures of all particles at the moments that a scene asks for.
+
+#include <mpm/output/snapshot.hpp>
+#include <mpm/simulation/run.hpp>
+
+namespace mpm {
+
+template <int Dim>
+class Snapshots final : public Observer<Dim> {
+ public:
+  /// Collective.
+  Snapshots(const Preparation<Dim>& preparation, const std::filesystem::path& folder);
+  void look(const typename Observer<Dim>::State& state) override;
+
+ private:
+  std::vector<scene::Field> fields_;
+  output::SnapshotSeries series_;
+  std::vector<double> moments_;  ///< s, ascending
+  std::size_t next_ = 0;
+};
+
+}  // namespace mpm

@@ -1,0 +1,60 @@
+#include <mpm/core/error.hpp>
+#include <mpm/materials/laws.hpp>
+
+#include <algorithm>
+
+namespace mpm {
+
+#define MPM_LAW(keyword) LawRow keyword##_law();
+#include "laws.list"
+#undef MPM_LAW
+
+template <>
+std::span<const LawRow> list_of<LawRow>()
+{
+#define MPM_LAW(keyword) keyword##_law(),
+  static const LawRow rows[] = {
+#include "laws.list"
+  };
+#undef MPM_LAW
+  return rows;
+}
+
+bool LawRow::has(std::string_view key) const
+{
+  return std::ranges::find(parameters, key, &LawParameter::key) != parameters.end();
+}
+
+void fill_defaults(const LawRow& law, ParameterValues& values)
+{
+  for (const LawParameter& parameter : law.parameters)
+    if (const auto value = parameter.default_value(); value && !values.has(parameter.key))
+      values.set(parameter.key, *value);
+}
+
+template <int Dim>
+std::unique_ptr<Law<Dim>> make_law(const LawRow& law, const ParameterValues& values,
+                                   PlaneAssumption plane)
+{
+  const auto there = [](const LawRow& row) {
+    return Dim == 2 ? bool(row.in_plane) : bool(row.in_space);
+  };
+  if (!there(law)) {
+    std::string words;
+    for (const LawRow& row : list_of<LawRow>())
+      if (there(row)) words += (words.empty() ? "" : ", ") + row.keyword;
+    const std::string reason = !law.deformable() ? "has no stress"
+                               : Dim == 2        ? "is there in space only"
+                                                 : "is there in the plane only";
+    throw InputError("law " + law.keyword + " " + reason + ". Use one of: " + words + ".");
+  }
+  if constexpr (Dim == 2)
+    return law.in_plane(values, plane);
+  else
+    return law.in_space(values);
+}
+
+template std::unique_ptr<Law<2>> make_law(const LawRow&, const ParameterValues&, PlaneAssumption);
+template std::unique_ptr<Law<3>> make_law(const LawRow&, const ParameterValues&, PlaneAssumption);
+
+}  // namespace mpm

@@ -1,0 +1,235 @@
+#include <mpm/core/error.hpp>
+#include <mpm/parallel/session.hpp>
+#include <mpm/simulation/history.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+namespace mpm {
+
+namespace {
+
+/// Steps between two readings of the load cell's mean stress.
+constexpr GlobalIndex steps_between_readings = 5;
+
+}  // namespace
+
+std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind)
+{
+  std::vector<output::HistoryColumn> list{{"time", "s"}};
+  if (kind.piston) {
+    list.push_back({"strain", "1"});
+    list.push_back({"stress", "Pa"});
+    list.push_back({"stress_piston", "Pa"});
+    list.push_back({"stress_edge", "Pa"});
+    if (kind.load_cell) list.push_back({"stress_load_cell", "Pa"});
+  }
+  for (const char* energy : {"kinetic_energy", "elastic_energy", "plastic_work", "external_work"})
+    list.push_back({energy, "J"});
+  list.push_back({"energy_error", "1"});
+  list.push_back({"momentum_error", "1"});
+  list.push_back({"particles", "1"});
+  list.push_back({"time_step", "s"});
+  if (kind.piston) {
+    list.push_back({"behind_piston", "1"});
+    list.push_back({"outside_walls", "1"});
+  }
+  return list;
+}
+
+std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind)
+{
+  std::vector<double> values{line.time};
+  if (kind.piston) {
+    values.insert(values.end(), {line.strain, line.stress(), line.piston_stress, line.edge_stress});
+    if (kind.load_cell) values.push_back(line.load_cell_stress);
+  }
+  values.insert(values.end(),
+                {line.kinetic_energy, line.elastic_energy, line.plastic_work, line.external_work,
+                 line.energy_error, line.momentum_error, double(line.particles), line.time_step});
+  if (kind.piston)
+    values.insert(values.end(), {double(line.behind_piston), double(line.outside_walls)});
+  return values;
+}
+
+template <int Dim>
+History<Dim>::History(Formulation<Dim>& formulation, std::optional<Apparatus<Dim>> apparatus)
+    : formulation_(formulation), apparatus_(std::move(apparatus))
+{
+  start_ = sum_particles(comm(), formulation_.bodies());
+}
+
+template <int Dim>
+HistoryKind History<Dim>::kind() const
+{
+  return {apparatus_.has_value(), apparatus_ && apparatus_->load_cell_body >= 0};
+}
+
+template <int Dim>
+void History<Dim>::before_line()
+{
+  stress_work_before_ = sum_particles(comm(), formulation_.bodies()).stress_work();
+}
+
+template <int Dim>
+void History<Dim>::observe()
+{
+  if (!kind().load_cell || formulation_.steps() % steps_between_readings != 0) return;
+  const AxialStress now = axial_stress(
+      formulation_.bodies()[std::size_t(apparatus_->load_cell_body)], apparatus_->axis);
+  load_cell_.mass_stress += now.mass_stress;
+  load_cell_.mass += now.mass;
+}
+
+/// Load cell, then work and impulse of loads, contacts and each condition.
+template <int Dim>
+void History<Dim>::take_reactions(HistoryLine& line)
+{
+  std::vector<double> sums{load_cell_.mass_stress, load_cell_.mass};
+  load_cell_ = {};
+  const auto append = [&](const Reaction<Dim>& reaction) {
+    sums.push_back(reaction.work);
+    sums.insert(sums.end(), reaction.impulse.data(), reaction.impulse.data() + Dim);
+  };
+  Slots<Dim>& slots = formulation_.slots();
+  append(slots.loads.take_reaction());
+  for (const auto& contact : slots.contacts) append(contact->take_reaction());
+  const std::size_t others = 1 + slots.contacts.size();
+  for (const auto& condition : slots.conditions) append(condition->take_reaction());
+  sum_over_ranks(comm(), sums);
+  if (sums[1] > 0) line.load_cell_stress = -sums[0] / sums[1];
+
+  double piston_impulse = 0, edge_impulse = 0;  // along the axis
+  for (std::size_t k = 0; k < others + slots.conditions.size(); ++k) {
+    const double* reaction = &sums[2 + k * (1 + Dim)];
+    const Vec<Dim> impulse = Eigen::Map<const Vec<Dim>>(reaction + 1);
+    external_work_ += reaction[0];
+    impulse_ += impulse;
+    impulse_size_ += impulse.norm();
+    if (!apparatus_ || k < others) continue;
+    const auto* condition = slots.conditions[k - others].get();
+    if (condition == apparatus_->piston) piston_impulse = impulse[apparatus_->axis];
+    if (condition == apparatus_->edge) edge_impulse = impulse[apparatus_->axis];
+  }
+  line.external_work = external_work_;
+  if (!apparatus_) return;
+  // A wall at the upper end pushes towards lower coordinates.
+  const double towards = apparatus_->piston->placement().upper ? -1 : 1;
+  const double per_area = 1 / (apparatus_->area * std::max(line.time - last_time_, 1e-300));
+  // + 0.0: no minus before a zero.
+  line.piston_stress = towards * piston_impulse * per_area + 0.0;
+  line.edge_stress = -towards * edge_impulse * per_area + 0.0;
+}
+
+template <int Dim>
+void History<Dim>::balance(HistoryLine& line, const ParticleSums<Dim>& sums)
+{
+  // Velocities, and with them kinetic energy and external work, stand half a step before the
+  // stresses that the step leaves, with USF half a step after them (leap-frog): the work of the
+  // stresses is taken there, or the balance would be off by half a step's work.
+  const double stress_work = sums.stress_work();
+  const double last_step = stress_work - stress_work_before_.value_or(stress_work);
+  stress_work_before_.reset();
+  const double surplus = sums.kinetic_energy + stress_work -
+                         formulation_.stress_moment() * last_step - line.external_work -
+                         start_.kinetic_energy - start_.stress_work();
+  const double scale = std::max(std::abs(line.external_work), start_.kinetic_energy);
+  line.energy_error = scale > 0 ? surplus / scale : 0;
+  const double pushes = impulse_size_ + start_.momentum.norm();
+  if (pushes > 0)
+    line.momentum_error = (sums.momentum - start_.momentum - impulse_).norm() / pushes;
+}
+
+template <int Dim>
+const HistoryLine& History<Dim>::record(double dt)
+{
+  HistoryLine line;
+  line.time = formulation_.time();
+  line.time_step = dt;
+  const ParticleSums<Dim> sums = sum_particles(comm(), formulation_.bodies());
+  line.particles = sums.particles;
+  line.kinetic_energy = sums.kinetic_energy;
+  line.elastic_energy = sums.elastic_energy;
+  line.plastic_work = sums.plastic_work;
+  take_reactions(line);
+  if (apparatus_) {
+    line.strain = apparatus_->strain(line.time);
+    count_outside(line);
+  }
+  last_time_ = line.time;
+  balance(line, sums);
+  check(sums, line);
+  return lines_.emplace_back(line);
+}
+
+template <int Dim>
+void History<Dim>::check(const ParticleSums<Dim>& sums, const HistoryLine& line) const
+{
+  // The sums are the same on every rank, so all of them throw or none.
+  if (sums.particles != start_.particles || sums.id_sum != start_.id_sum ||
+      std::abs(sums.mass - start_.mass) > 1e-9 * start_.mass)
+    throw NumericalError(fmt::format(
+        "particles were lost or doubled by step {} (t = {:.6g} s): {} of {} particles, sum of ids "
+        "{} instead of {}, mass {:.12g} instead of {:.12g} kg. This is a defect of mpm_par: please "
+        "report it with the scene and the number of ranks.",
+        formulation_.steps(), line.time, sums.particles, start_.particles, sums.id_sum,
+        start_.id_sum, sums.mass, start_.mass));
+  if (!std::isfinite(sums.kinetic_energy + sums.elastic_energy + line.external_work))
+    throw NumericalError(fmt::format(
+        "the energy is no longer a number at step {} (t = {:.6g} s). Lower numerics.cfl.",
+        formulation_.steps(), line.time));
+}
+
+template <int Dim>
+void History<Dim>::count_outside(HistoryLine& line)
+{
+  const Vec<Dim>& spacing = formulation_.decomposition().geometry().spacing;
+  const std::array<const RigidWall<Dim>*, 1> moving{apparatus_->piston};
+  const Penetration piston =
+      find_behind<Dim>(comm(), formulation_.bodies(), moving, line.time, spacing);
+  const Penetration outside =
+      find_behind<Dim>(comm(), formulation_.bodies(), apparatus_->at_rest, line.time, spacing);
+  line.behind_piston = piston.particles;
+  line.outside_walls = outside.particles;
+  deepest_behind_piston_ = std::max(deepest_behind_piston_, piston.deepest);
+  warn_of(piston, "the piston's face");
+  warn_of(outside, "a wall");
+}
+
+template <int Dim>
+void History<Dim>::warn_of(const Penetration& found, const char* what) const
+{
+  if (found.ids.empty()) return;
+  spdlog::warn("step {}: particles more than one cell behind {}: ids {}", formulation_.steps(),
+               what, fmt::join(found.ids, ", "));
+}
+
+template <int Dim>
+void History<Dim>::archive(Archive& archive)
+{
+  archive.value("external_work", external_work_);
+  archive.values("impulse", {impulse_.data(), std::size_t(Dim)});
+  archive.value("impulse_size", impulse_size_);
+  archive.value("last_time", last_time_);
+  archive.value("load_cell_mass_stress", load_cell_.mass_stress);
+  archive.value("load_cell_mass", load_cell_.mass);
+  archive.value("deepest_behind_piston", deepest_behind_piston_);
+  const Archive::Section section(archive, "start");
+  archive.value("particles", start_.particles);
+  archive.value("id_sum", start_.id_sum);
+  archive.value("mass", start_.mass);
+  archive.value("kinetic_energy", start_.kinetic_energy);
+  archive.value("elastic_energy", start_.elastic_energy);
+  archive.value("plastic_work", start_.plastic_work);
+  archive.values("momentum", {start_.momentum.data(), std::size_t(Dim)});
+}
+
+template class History<2>;
+template class History<3>;
+
+}  // namespace mpm

@@ -1,0 +1,51 @@
+#include <mpm/parallel/session.hpp>
+#include <mpm/simulation/method.hpp>
+#include <mpm/simulation/preparation.hpp>
+
+namespace mpm {
+
+namespace {
+
+micrograph::Share share_of(MPI_Comm comm)
+{
+  return {rank_of(comm), ranks_of(comm),
+          [comm](std::span<double> values) { sum_over_ranks(comm, values); }};
+}
+
+/// A scene that cannot be laid out stops every rank.
+template <int Dim>
+Layout<Dim> agreed_layout(MPI_Comm comm, const scene::Scene& scene,
+                          const micrograph::Specimen<Dim>& specimen)
+{
+  Layout<Dim> layout;
+  agree(comm, [&] { layout = make_layout(scene, specimen); });
+  return layout;
+}
+
+}  // namespace
+
+template <int Dim>
+Preparation<Dim>::Preparation(MPI_Comm communicator, const scene::Scene& of,
+                              std::optional<micrograph::Picture> picture)
+    : scene(of),
+      specimen(of, std::move(picture), share_of(communicator)),
+      layout(agreed_layout(communicator, of, specimen)),
+      partition(first_partition(communicator, of, specimen, layout)),
+      comm(communicator)
+{
+}
+
+template <int Dim>
+scene::Scene Preparation<Dim>::effective_scene() const
+{
+  scene::Scene effective = scene;
+  effective.numerics.cfl = layout.cfl;
+  if (auto* loading = std::get_if<scene::Loading>(&effective.motion))
+    loading->ramp_time = layout.piston.ramp_time;
+  return effective;
+}
+
+template struct Preparation<2>;
+template struct Preparation<3>;
+
+}  // namespace mpm

@@ -1,0 +1,170 @@
+#include <mpm/core/error.hpp>
+#include <mpm/simulation/snapshots.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+namespace mpm {
+
+namespace {
+
+using output::ParticleField;
+using scene::Field;
+
+template <int Dim>
+std::size_t count(const std::vector<Body<Dim>>& bodies)
+{
+  std::size_t particles = 0;
+  for (const Body<Dim>& body : bodies) particles += std::size_t(body.particles.size());
+  return particles;
+}
+
+/// A vector of the motion columns with three components; 0 along z in the plane.
+template <int Dim>
+std::vector<double> vectors(const std::vector<Body<Dim>>& bodies, const std::string& name)
+{
+  std::vector<double> values;
+  values.reserve(3 * count(bodies));
+  for (const Body<Dim>& body : bodies) {
+    const int column = body.particles.motion().find(name);
+    for (LocalIndex p = 0; p < body.particles.size(); ++p)
+      for (int d = 0; d < 3; ++d)
+        values.push_back(d < Dim ? body.particles.motion()(column + d, p) : 0.0);
+  }
+  return values;
+}
+
+/// Column of a state field; zeros for bodies that do not have it.
+template <int Dim>
+std::vector<double> state_column(const std::vector<Body<Dim>>& bodies, const std::string& name)
+{
+  std::vector<double> values;
+  values.reserve(count(bodies));
+  for (const Body<Dim>& body : bodies) {
+    const int column = body.particles.state().find(name);
+    for (LocalIndex p = 0; p < body.particles.size(); ++p)
+      values.push_back(column < 0 ? 0.0 : body.particles.state()(column, p));
+  }
+  return values;
+}
+
+/// `Components` values of every particle, which `function` makes of its Cauchy stress
+/// xx yy zz xy yz xz. Stresses are not kept: a snapshot holds no more than what it writes.
+template <std::size_t Components, int Dim, class Function>
+std::vector<double> of_stress(const std::vector<Body<Dim>>& bodies, Function function)
+{
+  alignas(lane_alignment) double block[6 * lane_count];
+  std::vector<double> values;
+  values.reserve(Components * count(bodies));
+  for (const Body<Dim>& body : bodies)
+    for (LocalIndex p = 0; p < body.particles.size(); ++p) {
+      if (p % lane_count == 0)
+        body.law->cauchy_stress(body.particles.state().block(p / lane_count), block);
+      std::array<double, 6> stress;
+      for (int k = 0; k < 6; ++k) stress[k] = block[k * lane_count + p % lane_count];
+      const std::array<double, Components> made = function(stress);
+      values.insert(values.end(), made.begin(), made.end());
+    }
+  return values;
+}
+
+std::array<double, 1> von_mises(const std::array<double, 6>& s)
+{
+  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return {std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]))};
+}
+
+std::array<double, 1> pressure(const std::array<double, 6>& s)
+{
+  return {-(s[0] + s[1] + s[2]) / 3};
+}
+
+template <int Dim>
+ParticleField make_field(Field field, const Formulation<Dim>& formulation)
+{
+  const std::vector<Body<Dim>>& bodies = formulation.bodies();
+  switch (field) {
+    case Field::velocity:
+      return {"velocity", "m/s", 3, vectors(bodies, "velocity")};
+    case Field::stress:
+      return {"stress", "Pa", 6, of_stress<6>(bodies, std::identity{})};
+    case Field::von_mises:
+      return {"von_mises", "Pa", 1, of_stress<1>(bodies, von_mises)};
+    case Field::pressure:
+      return {"pressure", "Pa", 1, of_stress<1>(bodies, pressure)};
+    case Field::plastic_strain:
+      return {"plastic_strain", "1", 1, state_column(bodies, "plastic_strain")};
+    case Field::plastic_work:
+      return {"plastic_work", "J", 1, state_column(bodies, "plastic_work")};
+    case Field::material: {
+      std::vector<std::int32_t> values;
+      for (const Body<Dim>& body : bodies)
+        values.insert(values.end(), body.particles.size(), body.material);
+      return {"material", "1", 1, std::move(values)};
+    }
+    case Field::id: {
+      std::vector<std::int64_t> values;
+      for (const Body<Dim>& body : bodies)
+        values.insert(values.end(), body.particles.ids().begin(), body.particles.ids().end());
+      return {"id", "1", 1, std::move(values)};
+    }
+    case Field::rank:
+      return {
+          "rank", "1", 1,
+          std::vector<std::int32_t>(formulation.particles(), formulation.decomposition().rank())};
+  }
+  throw InputError("unknown output field");
+}
+
+/// Moments of snapshots, ascending, s.
+template <int Dim>
+std::vector<double> moments_of(const Preparation<Dim>& preparation)
+{
+  const scene::Scene& scene = preparation.scene;
+  std::vector<double> times = scene.output.snapshot_times;
+  if (const auto* loading = std::get_if<scene::Loading>(&scene.motion)) {
+    const double length = preparation.specimen.size()[axis_of(loading->piston)];
+    for (const double strain : scene.output.snapshot_strains)
+      times.push_back(time_of_strain(preparation.layout.piston, length, strain));
+  }
+  std::ranges::sort(times);
+  return times;
+}
+
+}  // namespace
+
+template <int Dim>
+Snapshots<Dim>::Snapshots(const Preparation<Dim>& preparation, const std::filesystem::path& folder)
+    : fields_(preparation.scene.output.fields),
+      series_(preparation.comm, folder, preparation.scene.name,
+              {.compress = preparation.scene.output.compress}),
+      moments_(moments_of(preparation))
+{
+}
+
+template <int Dim>
+void Snapshots<Dim>::look(const typename Observer<Dim>::State& state)
+{
+  Formulation<Dim>& formulation = state.formulation;
+  bool due = false;
+  while (next_ < moments_.size() && formulation.time() >= moments_[next_] * (1 - 1e-9)) {
+    due = true;
+    ++next_;
+  }
+  if (!due) return;
+  formulation.check();
+  output::Snapshot snapshot;
+  snapshot.time = formulation.time();
+  snapshot.strain = state.strain;
+  snapshot.step = formulation.steps();
+  snapshot.position = vectors(formulation.bodies(), "position");
+  for (const Field field : fields_) snapshot.fields.push_back(make_field(field, formulation));
+  series_.write(snapshot);
+}
+
+template class Snapshots<2>;
+template class Snapshots<3>;
+
+}  // namespace mpm
