@@ -17,15 +17,24 @@ bool within(const Given& given, const Bound& bound, double value)
   return broken ? given.refuse(*broken) : true;
 }
 
-bool read_number(const Given& given, Quantity quantity, double& value)
+/// `10`, or another number that the bound admits.
+std::string example_within(const Rule& rule)
 {
-  const std::string remedy = fmt::format("Write e.g. {}", example(quantity));
-  if (!is_scalar(given, fmt::format("must be {}", noun(quantity)), remedy)) return false;
+  if (rule.quantity != Quantity::number) return std::string(example(rule.quantity));
+  for (const char* number : {"10", "2", "0.3"})
+    if (!rule.bound.violation(std::stod(number))) return number;
+  return fmt::format("{}", 0.5 * (rule.bound.lower->value + rule.bound.upper->value));
+}
+
+bool read_number(const Given& given, const Rule& rule, double& value)
+{
+  const std::string remedy = "Write e.g. " + example_within(rule);
+  if (!is_scalar(given, fmt::format("must be {}", noun(rule.quantity)), remedy)) return false;
   try {
-    value = to_si(given.node.scalar, quantity);
+    value = to_si(given.node.scalar, rule.quantity);
     return true;
   } catch (const UnitError& error) {
-    return given.refuse(error.what(), error.remedy());
+    return given.refuse(error.what(), rule.quantity == Quantity::number ? remedy : error.remedy());
   }
 }
 
@@ -69,8 +78,7 @@ std::optional<std::size_t> read_word(const Given& given, const std::vector<std::
 bool Value<double>::read(const Given& given, const Rule& rule, double& value)
 {
   double number = 0;
-  if (!read_number(given, rule.quantity, number) || !within(given, rule.bound, number))
-    return false;
+  if (!read_number(given, rule, number) || !within(given, rule.bound, number)) return false;
   value = number;
   return true;
 }
@@ -91,7 +99,8 @@ std::string Value<double>::describe(const Rule& rule)
 bool Value<long>::read(const Given& given, const Rule& rule, long& value)
 {
   double number = 0;
-  if (!is_scalar(given, "must be a whole number") || !read_number(given, Quantity::number, number))
+  if (!is_scalar(given, "must be a whole number") ||
+      !read_number(given, {Quantity::number, rule.bound}, number))
     return false;
   constexpr double largest = 9007199254740992;  // 2^53: above, doubles skip whole numbers
   if (number != std::floor(number) || std::abs(number) > largest)

@@ -10,6 +10,8 @@ namespace mpm::scene {
 namespace {
 
 constexpr int deepest = 50;  // anchors that contain themselves would never end
+// Each use of an anchor copies what it stands for: a few lines can stand for more than any memory.
+constexpr long most_nodes = 1'000'000;
 
 class TreeBuilder {
  public:
@@ -18,10 +20,15 @@ class TreeBuilder {
   {
   }
 
-  Node build(const YAML::Node& from, const Place& outer, int depth = 0) const
+  Node build(const YAML::Node& from, const Place& outer, int depth = 0)
   {
     if (depth > deepest)
       throw InputError(outer.text() + ": nested too deeply (an anchor that contains itself?)");
+    if (++nodes_ > most_nodes)
+      throw InputError(
+          fmt::format("{}: the scene has more than {} values (anchors that multiply?). Write out "
+                      "what is needed.",
+                      outer.text(), most_nodes));
     Node node;
     node.place = from.IsNull() ? outer : place(from.Mark());
     if (from.IsScalar()) {
@@ -54,13 +61,14 @@ class TreeBuilder {
  private:
   std::string origin_;
   bool single_place_;
+  long nodes_ = 0;
 };
 
 }  // namespace
 
 Node parse_yaml(const std::string& text, const std::string& origin, bool single_place)
 {
-  const TreeBuilder builder(origin, single_place);
+  TreeBuilder builder(origin, single_place);
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1) {

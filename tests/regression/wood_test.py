@@ -6,6 +6,19 @@ from program import History, ProgramTest, mpm_par, summary
 
 WOOD = pathlib.Path(__file__).parents[2] / "inputs" / "wood"
 CLOSED = 0.005  # share of the external work
+DRIFT = 0.02  # of the figures below: equal runs agree to 1e-5, another number of ranks as well
+
+# The project's own figures with specimen.sampling: match, on 1 and 2 ranks; relative densities are
+# those of the pictures. With `threshold` loblolly has 0.607 (the paper's, to which it was drawn),
+# 3594 MPa and 65.6 MPa at 1.79 %. A figure that moves by more than DRIFT has to be explained.
+RADIAL = {"relative_density": 0.6160, "modulus": 3814e6, "buckling_stress": 81.5e6,
+          "buckling_strain": 0.02112, "densification_stress": 152.0e6,
+          "densification_strain": 0.1813}
+# At 8 % strain: relative density, modulus, mean stress from 4 % on.
+OTHERS = {"loblolly_tangential": (0.6160, 3573e6, 218.5e6),
+          "poplar_radial": (0.5703, 4382e6, 186.1e6),
+          "poplar_tangential": (0.5703, 2275e6, 114.7e6),
+          "ponderosa_tangential": (0.3802, 1250e6, 62.6e6)}
 
 
 class Wood(ProgramTest):
@@ -32,7 +45,10 @@ class Wood(ProgramTest):
     def test_loblolly_radial_goes_through_three_regions_to_sixty_percent(self):
         history, found = self.crush("loblolly_radial")
         self.assertAlmostEqual(found["strain"], 0.6, places=9)
-        self.assertAlmostEqual(found["relative_density"], 0.607, delta=0.003)
+        for figure, own in RADIAL.items():
+            self.assertAlmostEqual(found[figure], own, delta=DRIFT * own, msg=figure)
+        self.assertAlmostEqual(found["relative_density"], found["picture_relative_density"],
+                               delta=1e-4)  # a few of 58,200 locations
         # Nairn 2006, Table 1: 2740 MPa, 54.2 MPa at 1.8 %, 161.4 MPa at 27.1 %, for another
         # picture and with shape functions that lose work: the order must agree, not the digits.
         self.assertBetween(1.4e9, found["modulus"], 5.5e9)
@@ -59,13 +75,15 @@ class Wood(ProgramTest):
         # Quasi-static: within 2 % on the mean over the plateau.
         self.assertLess(abs(piston - edge), 0.02 * edge)
 
-    def test_the_other_scenes_close_their_energy_balance(self):
-        densities = {"loblolly_tangential": 0.607, "poplar_radial": 0.563,
-                     "poplar_tangential": 0.563, "ponderosa_tangential": 0.369}
-        for name, density in densities.items():
+    def test_the_other_scenes_close_their_energy_balance_and_keep_their_figures(self):
+        for name, (density, modulus, mean_stress) in OTHERS.items():
             with self.subTest(name):
-                _, found = self.crush(name, 0.08)
-                self.assertAlmostEqual(found["relative_density"], density, delta=0.003)
+                history, found = self.crush(name, 0.08)
+                self.assertAlmostEqual(found["relative_density"], density, delta=1e-4)
+                self.assertAlmostEqual(found["modulus"], modulus, delta=DRIFT * modulus)
+                stress = [s for e, s in zip(history["strain"], history["stress"]) if e > 0.04]
+                self.assertAlmostEqual(sum(stress) / len(stress), mean_stress,
+                                       delta=DRIFT * mean_stress)
 
 
 if __name__ == "__main__":

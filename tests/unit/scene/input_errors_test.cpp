@@ -58,7 +58,7 @@ TEST_F(InputErrors, Units)
                           "a.yaml:9:19: material.youngs_modulus is 7 MPA (unknown unit 'MPA', did "
                           "you mean 'MPa'?). Write e.g. 10.6 GPa.",
                           "a.yaml:10:18: material.poisson_ratio is 0.3 m (takes no unit). Write "
-                          "e.g. 10.",
+                          "e.g. 0.3.",
                           "a.yaml:11:17: material.yield_stress is 10 mm (mm is a length, not a "
                           "pressure). Write e.g. 10.6 GPa."));
 }
@@ -96,7 +96,7 @@ name:
                   "a.yaml:8:8: steps is 2.5 (must be a whole number).",
                   "a.yaml:9:20: numerics.scheme is 'flipp' (must be flip, pic, apic or tpic; did "
                   "you mean 'flip'?).",
-                  "a.yaml:9:32: numerics.cfl is 'fast' (must be a number). Write e.g. 10.",
+                  "a.yaml:9:32: numerics.cfl is 'fast' (must be a number). Write e.g. 2.",
                   "a.yaml:9:45: numerics.ranks is 4 (must be a list of 2).",
                   "a.yaml:11:13: output.compress is 'maybe' (must be true or false).",
                   "a.yaml:12:11: output.fields is 'stress' (must be a list).",

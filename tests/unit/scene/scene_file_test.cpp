@@ -67,6 +67,24 @@ TEST_F(SceneFile, WithAnAnchorInsideItself)
   EXPECT_THAT(problems("a: &x [*x]\n"), ElementsAre(HasSubstr("nested too deeply")));
 }
 
+TEST_F(SceneFile, WithAnchorsThatMultiplyIsRefusedAtOnce)
+{
+  // Nine lines that stand for 10^9 values.
+  std::string text = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int k = 1; k < 9; ++k) {
+    const std::string last = "*a" + std::to_string(k - 1);
+    text += "a" + std::to_string(k) + ": &a" + std::to_string(k) + " [";
+    for (int i = 0; i < 10; ++i) text += (i > 0 ? ", " : "") + last;
+    text += "]\n";
+  }
+  EXPECT_THAT(problems(text), ElementsAre(HasSubstr("the scene has more than 1000000 values "
+                                                    "(anchors that multiply?). Write out what is "
+                                                    "needed.")));
+  EXPECT_THAT(problems(text), ElementsAre(testing::StartsWith("a.yaml:")));
+  const std::string few = "title: &t [a]\nname: *t\n";
+  EXPECT_THAT(problems(few), testing::Not(testing::Contains(HasSubstr("more than"))));
+}
+
 TEST_F(SceneFile, NamesThePictureFromItsOwnFolder)
 {
   std::filesystem::create_directory(folder_ / "scenes");

@@ -1,0 +1,44 @@
+"""Every shipped scene is understood, and those of the tutorial run. (The scene reader's own test reads
+all of them, those in space too.)"""
+import pathlib
+import unittest
+
+from program import History, ProgramTest, mpm_par, summary
+
+INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
+IN_SPACE = {"benchmarks/block_space.yaml", "benchmarks/tube_bundle.yaml", "tutorial/tubes.yaml"}
+
+
+class ShippedScenes(ProgramTest):
+    def run_scene(self, name, *options):
+        run = mpm_par(INPUTS / name, *options, ranks=2, timeout=300)
+        self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+        return run.stdout
+
+    def test_all_in_the_plane_are_understood(self):
+        scenes = {path.relative_to(INPUTS).as_posix() for path in INPUTS.glob("*/*.yaml")
+                  if not path.name.endswith(".anatomy.yaml")}
+        self.assertLessEqual(IN_SPACE, scenes)
+        for name in sorted(scenes - IN_SPACE):
+            with self.subTest(name):
+                self.assertIn("time step", self.run_scene(name, "--check"))
+
+    def test_the_punch_pushes_the_block_and_the_energy_balance_closes(self):
+        folder = self.folder / "punch"
+        self.run_scene("tutorial/punch.yaml", "--output", folder)
+        history = History(folder)
+        self.assertAlmostEqual(history["time"][-1], 15e-6, delta=1e-7)
+        # Elastic block, rigid punch: the work that the punch does is all there is.
+        self.assertGreater(history["external_work"][-1], 0)
+        self.assertLess(abs(history["energy_error"][-1]), 0.005)
+
+    def test_an_own_micrograph_needs_seven_lines(self):
+        folder = self.folder / "own"
+        self.run_scene("tutorial/own_micrograph.yaml", "--output", folder)
+        found = summary(folder)
+        self.assertAlmostEqual(found["strain"], 0.1, places=9)
+        self.assertLess(abs(found["largest_energy_error"]), 0.005)
+
+
+if __name__ == "__main__":
+    unittest.main()
