@@ -75,8 +75,12 @@ void write_input_reference(std::ostream& out)
   out << introduction;
   write_sections<SceneKeys, Material>(out);
   write_words<LawRow>(out, "law");
-  write_sections<Specimen, GrayBand, Window, Shape, Box, Disc, Polygon, Honeycomb, Grid, Numerics,
-                 Loading, LoadCell, FreeMotion, OutputKeys>(out);
+  write_sections<Specimen, GrayBand, Window, Shape, Box, Disc, Polygon, Honeycomb, Grid, Numerics>(
+      out);
+  write_words<ShapeRow>(out, "shape_function");
+  write_words<SchemeRow>(out, "scheme");
+  write_words<UpdateOrderRow>(out, "update_order");
+  write_sections<Loading, LoadCell, FreeMotion, OutputKeys>(out);
   write_section<SnapshotKeys>(out, snapshots_section);
 }
 

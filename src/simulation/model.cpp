@@ -1,7 +1,6 @@
 #include <mpm/conditions/rigid_body.hpp>
 #include <mpm/core/error.hpp>
 #include <mpm/simulation/model.hpp>
-#include <mpm/transfer/scheme.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +13,6 @@ namespace {
 
 using micrograph::Lattice;
 using micrograph::SpecimenModel;
-
-ReactionBook book_of(const scene::Numerics& numerics)
-{
-  return numerics.scheme == scene::TransferScheme::flip ? ReactionBook::increments
-                                                        : ReactionBook::velocities;
-}
 
 /// Adds the particles of one body that lie in this rank's cells.
 class BodyFiller {
@@ -77,9 +70,8 @@ Body<2> empty_body(const scene::Material& material, int index, const scene::Scen
 {
   auto law = law_of(material, scene);
   auto state = law->state_columns();
-  const bool musl = scene.numerics.update_order == scene::UpdateOrder::musl;
   ParticleStore particles(
-      transfer.motion_columns(musl), std::move(state),
+      transfer.motion_columns(scene.numerics.update_order->remaps), std::move(state),
       {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume", "plastic_work"});
   return {material.name, index, material.density(), std::move(law), std::move(particles)};
 }
@@ -93,7 +85,7 @@ void add_apparatus(const scene::Scene& scene, const SpecimenModel& specimen, con
                    Model& model)
 {
   const auto& loading = std::get<scene::Loading>(scene.motion);
-  const ReactionBook book = book_of(scene.numerics);
+  const ReactionBook book = scene.numerics.scheme->book;
   const auto wall = [&](int axis, bool upper, double position, const WallMotion& motion,
                         WallGrip grip) {
     auto made = std::make_unique<RigidWall<2>>(RigidWall<2>::Placement{axis, upper, position},
@@ -133,7 +125,7 @@ void add_sides(const scene::Scene& scene, const SpecimenModel& specimen, Model& 
     model.conditions.push_back(std::make_unique<RigidWall<2>>(
         RigidWall<2>::Placement{axis, upper, upper ? specimen.size[axis] : 0.0}, WallMotion{},
         motion.sides[k] == scene::Lateral::rigid ? WallGrip::stick : WallGrip::slip,
-        book_of(scene.numerics)));
+        scene.numerics.scheme->book));
   }
 }
 
@@ -143,7 +135,8 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
                  const Decomposition<2>& decomposition)
 {
   Model model;
-  model.transfer = make_transfer(scene.numerics, specimen.particles_per_cell);
+  model.transfer = make_transfer<2>(scene.numerics.shape_function, scene.numerics.scheme,
+                                    specimen.particles_per_cell);
   const Lattice& lattice = specimen.lattice;
   const int per_cell = specimen.particles_per_cell;
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
@@ -159,7 +152,7 @@ Model make_model(const scene::Scene& scene, const SpecimenModel& specimen, const
                 {(i + 0.5) * layout.location_size[0], (j + 0.5) * layout.location_size[1]});
       model.conditions.push_back(std::make_unique<RigidBody<2>>(
           std::move(points), Vec<2>(0.5 * layout.location_size[0], 0.5 * layout.location_size[1]),
-          Vec<2>(velocity[0], velocity[1]), book_of(scene.numerics)));
+          Vec<2>(velocity[0], velocity[1]), scene.numerics.scheme->book));
       continue;
     }
     Body<2>& body = model.bodies.emplace_back(empty_body(material, int(k), scene, *model.transfer));

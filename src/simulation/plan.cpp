@@ -10,29 +10,6 @@ namespace mpm {
 
 namespace {
 
-/// Nanoseconds per particle and step on one core of a 2.6 GHz server processor of 2023 with 512-bit
-/// vectors: the order of magnitude of a run time, measured with the shipped block scenes.
-double typical_cost(const scene::Numerics& numerics)
-{
-  return numerics.shape_function == scene::ShapeFunction::linear ? 35 : 50;
-}
-
-const char* name_of(scene::ShapeFunction s)
-{
-  constexpr const char* names[] = {"linear", "uniform GIMP", "quadratic B-spline"};
-  return names[int(s)];
-}
-const char* name_of(scene::TransferScheme s)
-{
-  constexpr const char* names[] = {"FLIP", "PIC", "APIC", "TPIC"};
-  return names[int(s)];
-}
-const char* name_of(scene::UpdateOrder s)
-{
-  constexpr const char* names[] = {"MUSL", "USF", "USL"};
-  return names[int(s)];
-}
-
 std::string memory(double bytes)
 {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
@@ -73,10 +50,8 @@ std::vector<std::string> left_out(const scene::Scene& scene)
                            [](const scene::Material& m) { return m.law->has("yield_stress"); }))
     list.push_back("plasticity");
   if (loading && !loading->load_cell) list.push_back("load cell");
-  if (scene.numerics.update_order != scene::UpdateOrder::musl) list.push_back("re-mapping pass");
-  if (scene.numerics.scheme == scene::TransferScheme::flip ||
-      scene.numerics.scheme == scene::TransferScheme::pic)
-    list.push_back("affine velocity field");
+  if (!scene.numerics.update_order->remaps) list.push_back("re-mapping pass");
+  if (!scene.numerics.scheme->affine) list.push_back("affine velocity field");
   if (std::ranges::all_of(scene.materials, deformable)) list.push_back("rigid bodies");
   if (scene.output.snapshot_strains.empty() && scene.output.snapshot_times.empty())
     list.push_back("snapshots");
@@ -101,10 +76,10 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
   double steps = std::ceil(layout.end_time / dt);
   if (scene.steps) steps = std::min(steps, double(*scene.steps));
 
-  const auto transfer = make_transfer(scene.numerics, specimen.particles_per_cell);
+  const auto transfer = make_transfer<2>(scene.numerics.shape_function, scene.numerics.scheme,
+                                         specimen.particles_per_cell);
   int particle_columns = 1;  // id
-  for (const Column& c :
-       transfer->motion_columns(scene.numerics.update_order == scene::UpdateOrder::musl))
+  for (const Column& c : transfer->motion_columns(scene.numerics.update_order->remaps))
     particle_columns += c.components;
   int state_columns = 0;
   for (const scene::Material& material : scene.materials) {
@@ -134,8 +109,8 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
                            1e6 * layout.geometry.spacing[1], specimen.particles_per_cell,
                            specimen.particles_per_cell));
   line("particles", fmt::format("{:.0f} of {} locations", particles, specimen.locations()));
-  line("method", fmt::format("{}, {}, {}, plane {}", name_of(scene.numerics.shape_function),
-                             name_of(scene.numerics.scheme), name_of(scene.numerics.update_order),
+  line("method", fmt::format("{}, {}, {}, plane {}", scene.numerics.shape_function->words,
+                             scene.numerics.scheme->words, scene.numerics.update_order->words,
                              scene.numerics.plane == scene::Plane::strain ? "strain" : "stress"));
   for (const scene::Material& material : scene.materials)
     if (material.law->deformable())
@@ -152,10 +127,10 @@ std::string plan_text(const scene::Scene& scene, const micrograph::SpecimenModel
   line("memory", fmt::format("{:.0f} B per particle, {:.0f} B per node, {} in all",
                              bytes_per_particle, bytes_per_node,
                              memory(bytes_per_particle * particles + bytes_per_node * nodes)));
-  line("run time",
-       fmt::format("about {} on {} rank{} (order of magnitude)",
-                   duration(1e-9 * typical_cost(scene.numerics) * particles * steps / ranks), ranks,
-                   ranks == 1 ? "" : "s"));
+  line("run time", fmt::format("about {} on {} rank{} (order of magnitude)",
+                               duration(1e-9 * scene.numerics.shape_function->step_cost *
+                                        particles * steps / ranks),
+                               ranks, ranks == 1 ? "" : "s"));
   return text;
 }
 

@@ -44,7 +44,9 @@ std::string rank_study_text(const scene::Scene& scene, const micrograph::Specime
   CellVisits<2> later;
   if (const auto* loading = std::get_if<scene::Loading>(&scene.motion))
     later = squeezed(start, *loading, specimen, layout);
-  const int support = make_transfer(scene.numerics, specimen.particles_per_cell)->support();
+  const int support = make_transfer<2>(scene.numerics.shape_function, scene.numerics.scheme,
+                                       specimen.particles_per_cell)
+                          ->support();
   std::string text =
       partition_table<2>(layout.geometry, ranks, partition_rules(scene), support, start, later);
   text +=

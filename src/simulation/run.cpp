@@ -61,7 +61,7 @@ class Run {
         conditions_(pointers(model_.conditions)),
         stepper_(decomposition, std::move(model_.transfer), std::move(model_.bodies),
                  std::move(model_.conditions),
-                 {update_order_of(scene), 1e-24 * layout.largest_particle_mass}),
+                 {scene.numerics.update_order->kind, 1e-24 * layout.largest_particle_mass}),
         balance_(partition_rules(scene), scene.numerics.repartition_interval),
         history_(folder, stepper_, conditions_, model_.apparatus),
         snapshots_(scene, folder, comm_),

@@ -19,18 +19,17 @@ inline constexpr double youngs_modulus = 1e9;  ///< Pa
 inline constexpr double density = 1000;        ///< kg/m^3
 
 struct Method {
-  ShapeKind shape;
-  SchemeKind scheme;
+  OneOf<ShapeRow> shape;
+  OneOf<SchemeRow> scheme;
   UpdateOrderKind order;
 };
 
 /// As a test's name.
 inline std::string name_of(const Method& m)
 {
-  constexpr const char* shapes[] = {"Linear", "Gimp", "Quadratic"};
-  constexpr const char* schemes[] = {"Flip", "Pic", "Apic", "Tpic"};
   constexpr const char* orders[] = {"Musl", "Usf", "Usl"};
-  return std::string(shapes[int(m.shape)]) + schemes[int(m.scheme)] + orders[int(m.order)];
+  return std::string(m.shape->keyword) + "_" + std::string(m.scheme->keyword) +
+         orders[int(m.order)];
 }
 
 struct Block {

@@ -13,8 +13,8 @@ namespace {
 using namespace testing_blocks;
 using ::testing::HasSubstr;
 
-using enum ShapeKind;
-using enum SchemeKind;
+const OneOf<ShapeRow> linear = "linear", gimp = "gimp", quadratic = "quadratic";
+const OneOf<SchemeRow> flip = "flip", pic = "pic", apic = "apic", tpic = "tpic";
 
 /// Three in a row and two rows for six ranks, so that corners are crossed.
 IndexVec<2> two_rows()
@@ -130,8 +130,7 @@ class PressedBlocks : public ::testing::TestWithParam<Method> {
   static GridGeometry<2> grid() { return BlockRun::grid_of({26, 20}); }
   static BlockRun make(const Decomposition<2>& decomposition)
   {
-    const ReactionBook book =
-        GetParam().scheme == flip ? ReactionBook::increments : ReactionBook::velocities;
+    const ReactionBook book = GetParam().scheme->book;
     BlockRun::Conditions walls;
     const auto add = [&](int axis, bool upper, double at, double velocity, WallGrip grip) {
       walls.push_back(std::make_unique<RigidWall<2>>(RigidWall<2>::Placement{axis, upper, at},

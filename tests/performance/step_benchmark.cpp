@@ -14,12 +14,9 @@ constexpr double dt = 1e-9;   // s
 
 constexpr const char* order_names[] = {"musl", "usf", "usl"};
 
-/// These take the gradient of a velocity that the force has just changed: no stable step.
 bool unstable(const Case& c, UpdateOrderKind order)
 {
-  return c.shape == ShapeKind::linear &&
-         (order == UpdateOrderKind::usl || c.scheme == SchemeKind::apic ||
-          c.scheme == SchemeKind::tpic);
+  return !stable_cfl(*c.shape, *c.scheme, *OneOf<UpdateOrderRow>(order_names[int(order)]));
 }
 
 /// A block whose lower sides rest on walls and whose upper sides are pressed towards them.
@@ -51,8 +48,7 @@ class PressedBlock {
     bodies.push_back(
         make_body<Dim>(*transfer, order == UpdateOrderKind::musl, parameters.plastic, cells, rate));
     std::vector<std::unique_ptr<BoundaryCondition<Dim>>> walls;
-    const ReactionBook book =
-        parameters.scheme == SchemeKind::flip ? ReactionBook::increments : ReactionBook::velocities;
+    const ReactionBook book = parameters.scheme->book;
     for (int d = 0; d < Dim; ++d) {
       const double length = cells * spacing;
       walls.push_back(std::make_unique<RigidWall<Dim>>(

@@ -2,6 +2,7 @@
 /// Velocity constraints on grid nodes and the reactions they meet with.
 
 #include <mpm/grid/node_grid.hpp>
+#include <mpm/transfer/scheme.hpp>
 
 #include <utility>
 
@@ -12,17 +13,6 @@ template <int Dim>
 struct Reaction {
   Vec<Dim> impulse = Vec<Dim>::Zero();  ///< N s, on the body
   double work = 0;                      ///< J, done on the body
-};
-
-/// Which momentum a reaction is measured from; it must fit the scheme, or the energy balance opens
-/// by a quarter of the work.
-enum class ReactionBook {
-  /// FLIP: particles receive (v after - v constrained before), so the projection of the particle
-  /// velocities onto the wall is no impulse: R dt = m (v after constraint - v before constraint),
-  /// both with the constrained velocity at the start of the step.
-  increments,
-  /// PIC, APIC, TPIC: particles receive the velocity itself: R dt = m v after - (mv + f dt).
-  velocities
 };
 
 template <int Dim>

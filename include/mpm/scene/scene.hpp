@@ -3,6 +3,7 @@
 /// checking live in reader.hpp.
 
 #include <mpm/materials/laws.hpp>
+#include <mpm/transfer/schemes.hpp>
 
 #include <array>
 #include <filesystem>
@@ -114,17 +115,14 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
-enum class ShapeFunction { linear, gimp, quadratic };
-enum class TransferScheme { flip, pic, apic, tpic };
-enum class UpdateOrder { musl, usf, usl };
 enum class DecompositionKind { automatic, cuts, metis };
 
 struct Numerics {
   Plane plane = Plane::strain;
   double thickness = 1;  ///< m, out of plane
-  ShapeFunction shape_function = ShapeFunction::gimp;
-  TransferScheme scheme = TransferScheme::flip;
-  UpdateOrder update_order = UpdateOrder::musl;
+  OneOf<ShapeRow> shape_function = "gimp";
+  OneOf<SchemeRow> scheme = "flip";
+  OneOf<UpdateOrderRow> update_order = "musl";
   std::optional<double> cfl;  ///< default depends on shape function and update order
   DecompositionKind decomposition = DecompositionKind::automatic;
   std::array<int, 2> ranks{0, 0};  ///< process grid of cuts; 0: chosen

@@ -61,8 +61,6 @@ Model make_model(const scene::Scene& scene, const micrograph::SpecimenModel& spe
                  const Layout& layout, const Decomposition<2>& decomposition);
 
 double default_cfl(const scene::Numerics& numerics);
-UpdateOrderKind update_order_of(const scene::Scene& scene);
-std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics& numerics, int particles_per_cell);
 
 /// Cuts across the piston's travel come first.
 PartitionRules<2> partition_rules(const scene::Scene& scene);

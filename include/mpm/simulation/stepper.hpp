@@ -14,12 +14,6 @@
 
 namespace mpm {
 
-enum class UpdateOrderKind {
-  musl,  ///< modified update stress last: velocity gradient of the re-mapped grid velocity
-  usf,   ///< update stress first
-  usl    ///< update stress last, without re-mapping
-};
-
 /// Sulsky, Zhou & Schreyer 1995 (CPC 87:236); Bardenhagen 2002 (JCP 180:383); Nairn 2003 (CMES
 /// 4:649). Between steps the grid holds the sums of the particles' present state, so that every
 /// step begins with the grid update and ends with particles complete in position, velocity and
