@@ -1,5 +1,6 @@
 #include <mpm/core/lanes.hpp>
 #include <mpm/materials/hencky.hpp>
+#include <mpm/materials/logarithmic_wave.hpp>
 #include <mpm/materials/plane_stress_return.hpp>
 
 #include <cmath>
@@ -177,6 +178,11 @@ class Hencky final : public Law<2> {
   double wave_speed() const override
   {
     return std::sqrt(elastic_.in_plane_modulus(Plane) / density_);
+  }
+
+  Lanes fastest_wave_squared(const double* state) const override
+  {
+    return logarithmic_wave_squared(*this, density_, state);
   }
 
  private:

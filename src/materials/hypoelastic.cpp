@@ -1,5 +1,6 @@
 #include <mpm/core/lanes.hpp>
 #include <mpm/materials/hypoelastic.hpp>
+#include <mpm/materials/logarithmic_wave.hpp>
 #include <mpm/materials/plane_stress_return.hpp>
 
 #include <Eigen/LU>
@@ -128,6 +129,11 @@ class Hypoelastic final : public Law<2> {
   }
 
   double wave_speed() const override { return std::sqrt(stiffness_.wave_modulus() / density_); }
+
+  Lanes fastest_wave_squared(const double* state) const override
+  {
+    return logarithmic_wave_squared(*this, density_, state);
+  }
 
  private:
   static Lanes at(const double* s, int column) { return load(s + column * lane_count); }

@@ -1,44 +1,13 @@
 #include <mpm/core/lanes.hpp>
 #include <mpm/materials/hypoelastic_solid.hpp>
+#include <mpm/materials/logarithmic_wave.hpp>
+#include <mpm/materials/space_tensor.hpp>
 
 #include <cmath>
 
 namespace mpm {
 
 namespace {
-
-/// Row by row.
-struct Tensor {
-  Lanes a[3][3];
-
-  static Tensor identity() { return {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}}; }
-  Lanes cofactor(int i, int j) const
-  {
-    const int r = (i + 1) % 3, s = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
-    return a[r][c] * a[s][d] - a[r][d] * a[s][c];
-  }
-  Lanes determinant() const
-  {
-    return a[0][0] * cofactor(0, 0) + a[0][1] * cofactor(0, 1) + a[0][2] * cofactor(0, 2);
-  }
-  Tensor inverse() const
-  {
-    const Lanes scale = 1.0 / determinant();
-    Tensor result;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) result.a[i][j] = cofactor(j, i) * scale;
-    return result;
-  }
-};
-
-Tensor operator*(const Tensor& x, const Tensor& y)
-{
-  Tensor result;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      result.a[i][j] = x.a[i][0] * y.a[0][j] + x.a[i][1] * y.a[1][j] + x.a[i][2] * y.a[2][j];
-  return result;
-}
 
 /// Rotation of a step with midpoint gradient G: (I - W/2)^-1 (I + W/2), W the skew part of G. With
 /// the axial vector b of W/2 this is I + 2 (B + B B) / (1 + b.b), B = W/2; |b| = tan(angle / 2).
@@ -57,35 +26,6 @@ Tensor rotation_of(const Tensor& g)
   }
   return q;
 }
-
-/// xx, yy, zz, xy, yz, xz.
-struct Symmetric {
-  Lanes xx, yy, zz, xy, yz, xz;
-
-  Lanes mean() const { return (xx + yy + zz) / 3.0; }
-  Lanes squared() const  ///< A : A
-  {
-    return xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + xz * xz);
-  }
-  Symmetric deviator() const
-  {
-    const Lanes p = mean();
-    return {xx - p, yy - p, zz - p, xy, yz, xz};
-  }
-  friend Symmetric operator+(const Symmetric& a, const Symmetric& b)
-  {
-    return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.yz + b.yz, a.xz + b.xz};
-  }
-  /// Q A Q^T
-  Symmetric turned(const Tensor& q) const
-  {
-    const Tensor m = q * Tensor{{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
-    const auto at = [&](int i, int j) {
-      return m.a[i][0] * q.a[j][0] + m.a[i][1] * q.a[j][1] + m.a[i][2] * q.a[j][2];
-    };
-    return {at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)};
-  }
-};
 
 template <bool Plastic>
 class HypoelasticSolid final : public Law<3> {
@@ -126,13 +66,13 @@ class HypoelasticSolid final : public Law<3> {
   {
     for (int k = 0; k < blocks; ++k) {
       const double* s = state + k * columns * lane_count;
-      put(stress(s), at(s, volume), force_stress + k * 6 * lane_count);
+      store_scaled(stress(s), at(s, volume), force_stress + k * 6 * lane_count);
     }
   }
 
   void cauchy_stress(const double* s, double* out) const override
   {
-    put(stress(s), 1.0 / at(s, volume_ratio), out);
+    store_scaled(stress(s), 1.0 / at(s, volume_ratio), out);
   }
 
   Lanes elastic_energy(const double* s) const override
@@ -145,22 +85,14 @@ class HypoelasticSolid final : public Law<3> {
 
   double wave_speed() const override { return std::sqrt(elastic_.wave_modulus() / density_); }
 
+  Lanes fastest_wave_squared(const double* state) const override
+  {
+    return logarithmic_wave_squared(*this, density_, state);
+  }
+
  private:
   static Lanes at(const double* s, int column) { return load(s + column * lane_count); }
-  static Symmetric stress(const double* s)
-  {
-    return {at(s, tau),     at(s, tau + 1), at(s, tau + 2),
-            at(s, tau + 3), at(s, tau + 4), at(s, tau + 5)};
-  }
-  static void put(const Symmetric& t, const Lanes& factor, double* out)
-  {
-    store(factor * t.xx, out);
-    store(factor * t.yy, out + lane_count);
-    store(factor * t.zz, out + 2 * lane_count);
-    store(factor * t.xy, out + 3 * lane_count);
-    store(factor * t.yz, out + 4 * lane_count);
-    store(factor * t.xz, out + 5 * lane_count);
-  }
+  static Symmetric stress(const double* s) { return load_symmetric(s + tau * lane_count); }
 
   void update_block(double* s, const double* l, double dt, double* out) const
   {
@@ -180,8 +112,8 @@ class HypoelasticSolid final : public Law<3> {
     const Symmetric half = half_increment(g);
     Symmetric t = (stress(s) + half).turned(rotation_of(g)) + half;
     if constexpr (Plastic) return_radially(s, t);
-    put(t, 1.0, s + tau * lane_count);
-    put(t, at(s, volume), out);
+    store_scaled(t, 1.0, s + tau * lane_count);
+    store_scaled(t, at(s, volume), out);
   }
 
   /// C : sym(G) / 2

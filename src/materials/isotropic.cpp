@@ -22,6 +22,9 @@ LawRow isotropic_law()
               },
           .in_space =
               [](const ParameterValues& v) {
+                if (is_hencky(v))
+                  return make_hencky_solid(isotropic_constants(v), v.number("density"),
+                                           std::nullopt);
                 return make_hypoelastic_solid(isotropic_constants(v), v.number("density"),
                                               std::nullopt);
               }};

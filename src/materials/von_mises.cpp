@@ -44,6 +44,9 @@ LawRow von_mises_law()
               },
           .in_space =
               [](const ParameterValues& v) {
+                if (is_hencky(v))
+                  return make_hencky_solid(isotropic_constants(v), v.number("density"),
+                                           yield_constants(v));
                 return make_hypoelastic_solid(isotropic_constants(v), v.number("density"),
                                               yield_constants(v));
               }};

@@ -44,6 +44,34 @@ std::vector<std::string> Checked::material_names() const
   return names;
 }
 
+/// Combinations of shape function, scheme and update order that have no stable step.
+void check_stability(const Checked& checked)
+{
+  const Numerics& numerics = checked.scene.numerics;
+  const ShapeRow& shape = *numerics.shape_function;
+  const UpdateOrderRow& order = *numerics.update_order;
+  if (!checked.sound("numerics.shape_function")) return;
+  const std::string reason =
+      fmt::format("with {} shape functions no time step is stable at free edges", shape.keyword);
+  if (order.stable_cfl && !(shape.stable_cfl.*order.stable_cfl)) {
+    const auto bears = std::ranges::find_if(
+        list_of<UpdateOrderRow>(), [](const UpdateOrderRow& other) { return !other.stable_cfl; });
+    checked.refuse("numerics.update_order", reason,
+                   fmt::format("Use update_order: {}", bears->keyword));
+  }
+  const auto family = numerics.scheme->stable_cfl;
+  if (shape.stable_cfl.*family) return;
+  std::vector<std::string> shapes;
+  for (const ShapeRow& other : list_of<ShapeRow>())
+    if (other.stable_cfl.*family) shapes.emplace_back(other.keyword);
+  const auto bears = std::ranges::find_if(list_of<SchemeRow>(), [&](const SchemeRow& other) {
+    return (shape.stable_cfl.*other.stable_cfl).has_value();
+  });
+  checked.refuse(
+      "numerics.scheme", reason,
+      fmt::format("Use scheme: {}, or shape_function: {}", bears->keyword, alternatives(shapes)));
+}
+
 void check_run(const Checked& checked)
 {
   const SceneKeys& scene = checked.scene;
@@ -58,18 +86,7 @@ void check_run(const Checked& checked)
                  "Add loading: {piston: right, speed: 10 m/s}, or free_motion: {end_time: 1 ms}");
 
   const Numerics& numerics = scene.numerics;
-  if (numerics.shape_function == ShapeFunction::linear &&
-      checked.sound("numerics.shape_function")) {
-    // Both take gradients of grid velocities that the force has just changed: where hardly any mass
-    // reaches a node, the gradient of a linear function is as large as ever.
-    const std::string reason = "with linear shape functions no time step is stable at free edges";
-    if (numerics.update_order == UpdateOrder::usl)
-      checked.refuse("numerics.update_order", reason, "Use update_order: musl");
-    if (numerics.scheme == TransferScheme::tpic || numerics.scheme == TransferScheme::apic)
-      checked.refuse("numerics.scheme", reason,
-                     "Use scheme: flip, or shape_function: gimp or quadratic");
-  }
-
+  check_stability(checked);
   if (numerics.decomposition == DecompositionKind::metis && checked.given("numerics.ranks"))
     checked.refuse("numerics.ranks", "METIS makes no process grid", "Use decomposition: cuts");
 

@@ -80,7 +80,11 @@ void write_input_reference(std::ostream& out)
   write_words<LawRow>(out, "law");
   write_sections<Specimen, GrayBand, Window, Shape>(out);
   for_each_kind([&]<class Kind>(std::type_identity<Kind>) { write_sections<Kind>(out); });
-  write_sections<Grid, Numerics, Loading, LoadCell, FreeMotion, OutputKeys>(out);
+  write_sections<Grid, Numerics>(out);
+  write_words<ShapeRow>(out, "shape_function");
+  write_words<SchemeRow>(out, "scheme");
+  write_words<UpdateOrderRow>(out, "update_order");
+  write_sections<Loading, LoadCell, FreeMotion, OutputKeys>(out);
   write_section<SnapshotKeys>(out, snapshots_section);
 }
 

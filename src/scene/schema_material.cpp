@@ -16,8 +16,10 @@ std::vector<Shared> law_parameters()
   std::vector<Shared> list;
   for (const LawRow& law : list_of<LawRow>())
     for (const LawParameter& parameter : law.parameters) {
-      auto same = std::ranges::find(list, parameter, &Shared::parameter);
-      if (same == list.end()) same = list.insert(same, {parameter, {}});
+      LawParameter shown = parameter;
+      shown.example = 0;  // of the law, not of the key
+      auto same = std::ranges::find(list, shown, &Shared::parameter);
+      if (same == list.end()) same = list.insert(same, {shown, {}});
       same->laws.push_back(law.keyword);
     }
   return list;

@@ -37,8 +37,7 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       member<N>("thickness", &N::thickness, {.quantity = Quantity::length, .bound = above(0)},
                 "out of the plane")
           .in_plane(),
-      member<N>("shape_function", &N::shape_function, {},
-                "hat functions, GIMP (uniform particle domains) or quadratic B-splines"),
+      member<N>("shape_function", &N::shape_function, {}, "how particles and nodes share"),
       member<N>("scheme", &N::scheme, {}, "what particles take from the grid"),
       member<N>("update_order", &N::update_order, {},
                 "stress from re-mapped velocities (musl), before (usf) or after (usl) the forces"),

@@ -13,12 +13,6 @@ namespace {
 using micrograph::Lattice;
 using micrograph::Specimen;
 
-ReactionBook book_of(const scene::Numerics& numerics)
-{
-  return numerics.scheme == scene::TransferScheme::flip ? ReactionBook::increments
-                                                        : ReactionBook::velocities;
-}
-
 /// Adds the particles of one body that lie in this rank's cells.
 template <int Dim>
 class BodyFiller {
@@ -132,7 +126,7 @@ void add_apparatus(const scene::Scene& scene, const Specimen<Dim>& specimen,
   const auto wall = [&](int axis, bool upper, double position, const WallMotion& motion) {
     auto made =
         std::make_unique<RigidWall<Dim>>(typename RigidWall<Dim>::Placement{axis, upper, position},
-                                         motion, grip, book_of(scene.numerics));
+                                         motion, grip, scene.numerics.scheme->book);
     RigidWall<Dim>* pointer = made.get();
     model.setup.slots.conditions.push_back(std::move(made));
     return pointer;
@@ -167,7 +161,7 @@ void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, Model<D
       const bool sticks = *side == scene::Lateral::rigid && !model.apparatus;
       auto wall = std::make_unique<RigidWall<Dim>>(
           typename RigidWall<Dim>::Placement{axis, upper, upper ? specimen.size()[axis] : 0.0},
-          WallMotion{}, sticks ? WallGrip::stick : WallGrip::slip, book_of(scene.numerics));
+          WallMotion{}, sticks ? WallGrip::stick : WallGrip::slip, scene.numerics.scheme->book);
       if (model.apparatus) model.apparatus->at_rest.push_back(wall.get());
       model.setup.slots.conditions.push_back(std::move(wall));
     }
@@ -192,7 +186,7 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
   Model<Dim> model;
   auto& setup = model.setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
-  setup.order = make_update_order<Dim>(scene.numerics);
+  setup.order = make_update_order<Dim>(scene.numerics.update_order->kind);
   setup.mass_cut = 1e-24 * layout.largest_particle_mass;
   const Lattice<Dim> lattice = specimen.lattice(nearby(specimen.whole(), layout, decomposition));
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
@@ -208,7 +202,7 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
       motion[d].speed = material.values.vector("velocity")[std::size_t(d)];
     setup.slots.conditions.push_back(std::make_unique<RigidBody<Dim>>(
         points_of(int(k), specimen, layout, decomposition.comm()), 0.5 * layout.location_size,
-        motion, book_of(scene.numerics)));
+        motion, scene.numerics.scheme->book));
   }
   if (layout.load_cell) {
     const scene::Material material = load_cell_material(scene, layout.load_cell->density_ratio);

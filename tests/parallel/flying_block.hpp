@@ -18,21 +18,18 @@ inline constexpr double cell = 1e-3;           ///< m
 inline constexpr double youngs_modulus = 1e9;  ///< Pa
 inline constexpr double density = 1000;        ///< kg/m^3
 
-enum class OrderKind { musl, usf, usl };
-
 struct Method {
-  ShapeKind shape;
-  SchemeKind scheme;
-  OrderKind order;
+  OneOf<ShapeRow> shape;
+  OneOf<SchemeRow> scheme;
+  UpdateOrderKind order;
 };
 
 /// As a test's name.
 inline std::string name_of(const Method& m)
 {
-  constexpr const char* shapes[] = {"Linear", "Gimp", "Quadratic"};
-  constexpr const char* schemes[] = {"Flip", "Pic", "Apic", "Tpic"};
   constexpr const char* orders[] = {"Musl", "Usf", "Usl"};
-  return std::string(shapes[int(m.shape)]) + schemes[int(m.scheme)] + orders[int(m.order)];
+  return std::string(m.shape->keyword) + "_" + std::string(m.scheme->keyword) +
+         orders[int(m.order)];
 }
 
 struct Block {
@@ -116,14 +113,12 @@ class BlockRun {
       bodies.push_back(
           {"block", int(bodies.size()), density, std::move(law),
            ParticleStore(
-               transfer->motion_columns(method.order == OrderKind::musl), std::move(state),
+               transfer->motion_columns(method.order == UpdateOrderKind::musl), std::move(state),
                {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume"})});
       fill(bodies.back(), block);
     }
     constexpr double volume = 0.25 * cell * cell;
-    auto order = method.order == OrderKind::musl  ? make_musl<2>()
-                 : method.order == OrderKind::usf ? make_usf<2>()
-                                                  : make_usl<2>();
+    auto order = make_update_order<2>(method.order);
     UpdatedLagrangian<2>::Setup setup{std::move(transfer), std::move(order), std::move(bodies)};
     setup.slots.conditions = std::move(conditions);
     setup.mass_cut = 1e-12 * density * volume;

@@ -6,7 +6,8 @@
 #include <mpm/parallel/migration.hpp>
 #include <mpm/parallel/redistribution.hpp>
 #include <mpm/parallel/session.hpp>
-#include <mpm/transfer/scheme.hpp>
+#include <mpm/transfer/apic.hpp>
+#include <mpm/transfer/flip.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -13,8 +13,8 @@ namespace {
 using namespace testing_blocks;
 using ::testing::HasSubstr;
 
-using enum ShapeKind;
-using enum SchemeKind;
+const OneOf<ShapeRow> linear = "linear", gimp = "gimp", quadratic = "quadratic";
+const OneOf<SchemeRow> flip = "flip", pic = "pic", apic = "apic", tpic = "tpic";
 
 /// Three in a row and two rows for six ranks, so that corners are crossed.
 IndexVec<2> two_rows()
@@ -109,15 +109,17 @@ TEST_P(FlyingBlock, IsAtTheSamePlaceOnPartsOfAnyShape)
 
 // Linear functions with an affine field are absent: at a free edge nodes of vanishing mass keep
 // their velocity in the affine field, and no time step is stable.
-INSTANTIATE_TEST_SUITE_P(
-    Methods, FlyingBlock,
-    ::testing::Values(Method{linear, flip, OrderKind::musl}, Method{gimp, flip, OrderKind::musl},
-                      Method{quadratic, flip, OrderKind::musl},
-                      Method{linear, pic, OrderKind::musl}, Method{gimp, tpic, OrderKind::musl},
-                      Method{quadratic, tpic, OrderKind::musl},
-                      Method{quadratic, apic, OrderKind::usf}, Method{gimp, pic, OrderKind::usf},
-                      Method{gimp, flip, OrderKind::usl}),
-    [](const auto& info) { return name_of(info.param); });
+INSTANTIATE_TEST_SUITE_P(Methods, FlyingBlock,
+                         ::testing::Values(Method{linear, flip, UpdateOrderKind::musl},
+                                           Method{gimp, flip, UpdateOrderKind::musl},
+                                           Method{quadratic, flip, UpdateOrderKind::musl},
+                                           Method{linear, pic, UpdateOrderKind::musl},
+                                           Method{gimp, tpic, UpdateOrderKind::musl},
+                                           Method{quadratic, tpic, UpdateOrderKind::musl},
+                                           Method{quadratic, apic, UpdateOrderKind::usf},
+                                           Method{gimp, pic, UpdateOrderKind::usf},
+                                           Method{gimp, flip, UpdateOrderKind::usl}),
+                         [](const auto& info) { return name_of(info.param); });
 
 /// A piston from the right, three walls, and a second block that flies into the first.
 class PressedBlocks : public ::testing::TestWithParam<Method> {
@@ -128,8 +130,7 @@ class PressedBlocks : public ::testing::TestWithParam<Method> {
   static GridGeometry<2> grid() { return BlockRun::grid_of({26, 20}); }
   static BlockRun make(const Decomposition<2>& decomposition)
   {
-    const ReactionBook book =
-        GetParam().scheme == flip ? ReactionBook::increments : ReactionBook::velocities;
+    const ReactionBook book = GetParam().scheme->book;
     BlockRun::Conditions walls;
     const auto add = [&](int axis, bool upper, double at, double velocity, WallGrip grip) {
       walls.push_back(std::make_unique<RigidWall<2>>(RigidWall<2>::Placement{axis, upper, at},
@@ -190,11 +191,11 @@ TEST_P(PressedBlocks, AreAtTheSamePlacesWhileTheBordersMoveEveryFewSteps)
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, PressedBlocks,
-                         ::testing::Values(Method{gimp, flip, OrderKind::musl},
-                                           Method{quadratic, tpic, OrderKind::musl},
-                                           Method{gimp, flip, OrderKind::usf},
-                                           Method{quadratic, flip, OrderKind::usf},
-                                           Method{gimp, flip, OrderKind::usl}),
+                         ::testing::Values(Method{gimp, flip, UpdateOrderKind::musl},
+                                           Method{quadratic, tpic, UpdateOrderKind::musl},
+                                           Method{gimp, flip, UpdateOrderKind::usf},
+                                           Method{quadratic, flip, UpdateOrderKind::usf},
+                                           Method{gimp, flip, UpdateOrderKind::usl}),
                          [](const auto& info) { return name_of(info.param); });
 
 /// Steps until the run stops; its words. Collective.
@@ -211,7 +212,7 @@ std::string words_of_failure(BlockRun& run, double speed)
 TEST(LostParticle, StopsEveryRankInTheSameStepWithTheSameWords)
 {
   constexpr double speed = 150;
-  BlockRun run(MPI_COMM_WORLD, two_rows(), {24, 20}, {gimp, flip, OrderKind::musl},
+  BlockRun run(MPI_COMM_WORLD, two_rows(), {24, 20}, {gimp, flip, UpdateOrderKind::musl},
                {{{12, 9}, {4, 3}, {speed, 0}}}, {});
   const std::string words = words_of_failure(run, speed);
   EXPECT_THAT(words, HasSubstr("left the grid"));
@@ -230,7 +231,7 @@ TEST(LostParticle, StopsEveryRankInTheSameStepWithTheSameWords)
 
 TEST(LostParticle, StepOfMoreThanACellIsNamed)
 {
-  BlockRun run(MPI_COMM_WORLD, two_rows(), {40, 20}, {gimp, flip, OrderKind::musl},
+  BlockRun run(MPI_COMM_WORLD, two_rows(), {40, 20}, {gimp, flip, UpdateOrderKind::musl},
                {{{4, 4}, {30, 10}, {1000, 1000}}}, {});
   try {
     run.stepper().step(2.5 * cell / 1000);
@@ -244,7 +245,7 @@ TEST(LostParticle, StepOfMoreThanACellIsNamed)
 
 TEST(LostParticle, PositionThatIsNoNumberIsNamed)
 {
-  BlockRun run(MPI_COMM_WORLD, two_rows(), {24, 20}, {gimp, flip, OrderKind::musl},
+  BlockRun run(MPI_COMM_WORLD, two_rows(), {24, 20}, {gimp, flip, UpdateOrderKind::musl},
                {{{5, 5}, {8, 8}, {std::nan(""), 0}}}, {});
   EXPECT_THAT(words_of_failure(run, 1), HasSubstr("is no longer a number"));
 }

@@ -3,7 +3,6 @@
 /// flowing plastically everywhere.
 
 #include <mpm/materials/hencky.hpp>
-#include <mpm/materials/hypoelastic_solid.hpp>
 #include <mpm/transfer/transfer.hpp>
 
 #include <algorithm>
@@ -14,8 +13,8 @@
 namespace mpm::performance {
 
 struct Case {
-  ShapeKind shape;
-  SchemeKind scheme;
+  OneOf<ShapeRow> shape;
+  OneOf<SchemeRow> scheme;
   bool plastic;
   friend auto operator<=>(const Case&, const Case&) = default;
 };
@@ -23,18 +22,15 @@ struct Case {
 /// shape/scheme/material, as in the table.
 inline std::string name_of(const Case& c)
 {
-  constexpr const char* shapes[] = {"linear", "gimp", "quadratic"};
-  constexpr const char* schemes[] = {"flip", "pic", "apic", "tpic"};
-  return std::string(shapes[int(c.shape)]) + '/' + schemes[int(c.scheme)] +
+  return std::string(c.shape->keyword) + '/' + std::string(c.scheme->keyword) +
          (c.plastic ? "/plastic" : "/elastic");
 }
 
 template <class Visit>
 void for_each_case(Visit visit)
 {
-  for (const ShapeKind shape : {ShapeKind::linear, ShapeKind::gimp, ShapeKind::quadratic})
-    for (const SchemeKind scheme :
-         {SchemeKind::flip, SchemeKind::pic, SchemeKind::apic, SchemeKind::tpic})
+  for (const OneOf<ShapeRow> shape : all_of_list<ShapeRow>())
+    for (const OneOf<SchemeRow> scheme : all_of_list<SchemeRow>())
       for (const bool plastic : {false, true}) visit(Case{shape, scheme, plastic});
 }
 
@@ -60,7 +56,7 @@ std::unique_ptr<Law<Dim>> make_law(bool plastic)
   if constexpr (Dim == 2)
     return make_hencky(PlaneAssumption::strain, elastic, density, yield);
   else
-    return make_hypoelastic_solid(elastic, density, yield);
+    return make_hencky_solid(elastic, density, yield);
 }
 
 template <int Dim>

@@ -12,28 +12,19 @@ namespace {
 constexpr double rate = 5e4;  // 1/s: a strain of 5e-5 in each step
 constexpr double dt = 1e-9;   // s
 
-enum class OrderKind { musl, usf, usl };
 constexpr const char* order_names[] = {"musl", "usf", "usl"};
 
-template <int Dim>
-std::unique_ptr<UpdateOrder<Dim>> make_order(OrderKind kind)
-{
-  if (kind == OrderKind::musl) return make_musl<Dim>();
-  return kind == OrderKind::usf ? make_usf<Dim>() : make_usl<Dim>();
-}
-
 /// These take the gradient of a velocity that the force has just changed: no stable step.
-bool unstable(const Case& c, OrderKind order)
+bool unstable(const Case& c, UpdateOrderKind order)
 {
-  return c.shape == ShapeKind::linear &&
-         (order == OrderKind::usl || c.scheme == SchemeKind::apic || c.scheme == SchemeKind::tpic);
+  return !stable_cfl(*c.shape, *c.scheme, *OneOf<UpdateOrderRow>(order_names[int(order)]));
 }
 
 /// A block whose lower sides rest on walls and whose upper sides are pressed towards them.
 template <int Dim>
 class PressedBlock {
  public:
-  PressedBlock(const Case& c, OrderKind order)
+  PressedBlock(const Case& c, UpdateOrderKind order)
       : parameters(c),
         order(order),
         decomposition_(MPI_COMM_WORLD, geometry<Dim>(cells_per_axis<Dim>), IndexVec<Dim>::Zero(),
@@ -47,7 +38,7 @@ class PressedBlock {
   LocalIndex particles() const { return stepper_->particles(); }
 
   const Case parameters;
-  const OrderKind order;
+  const UpdateOrderKind order;
 
  private:
   std::unique_ptr<UpdatedLagrangian<Dim>> make_stepper() const
@@ -56,10 +47,9 @@ class PressedBlock {
     auto transfer = make_transfer<Dim>(parameters.shape, parameters.scheme, 2);
     std::vector<Body<Dim>> bodies;
     bodies.push_back(
-        make_body<Dim>(*transfer, order == OrderKind::musl, parameters.plastic, cells, rate));
+        make_body<Dim>(*transfer, order == UpdateOrderKind::musl, parameters.plastic, cells, rate));
     std::vector<std::unique_ptr<BoundaryCondition<Dim>>> walls;
-    const ReactionBook book =
-        parameters.scheme == SchemeKind::flip ? ReactionBook::increments : ReactionBook::velocities;
+    const ReactionBook book = parameters.scheme->book;
     for (int d = 0; d < Dim; ++d) {
       const double length = cells * spacing;
       walls.push_back(std::make_unique<RigidWall<Dim>>(
@@ -68,7 +58,7 @@ class PressedBlock {
           std::make_unique<RigidWall<Dim>>(typename RigidWall<Dim>::Placement{d, true, length},
                                            WallMotion{-rate * length, 0}, WallGrip::slip, book));
     }
-    typename UpdatedLagrangian<Dim>::Setup setup{std::move(transfer), make_order<Dim>(order),
+    typename UpdatedLagrangian<Dim>::Setup setup{std::move(transfer), make_update_order<Dim>(order),
                                                  std::move(bodies)};
     setup.slots.conditions = std::move(walls);
     setup.mass_cut = 1e-24 * density * std::pow(spacing, Dim);
@@ -84,7 +74,7 @@ template <int Dim>
 std::unique_ptr<PressedBlock<Dim>> kept;
 
 template <int Dim>
-PressedBlock<Dim>& block_of(const Case& c, OrderKind order)
+PressedBlock<Dim>& block_of(const Case& c, UpdateOrderKind order)
 {
   if (!kept<Dim> || kept<Dim>->parameters != c || kept<Dim>->order != order) {
     kept<Dim>.reset();
@@ -96,7 +86,8 @@ PressedBlock<Dim>& block_of(const Case& c, OrderKind order)
 template <int Dim>
 void register_steps()
 {
-  for (const OrderKind order : {OrderKind::musl, OrderKind::usf, OrderKind::usl})
+  for (const UpdateOrderKind order :
+       {UpdateOrderKind::musl, UpdateOrderKind::usf, UpdateOrderKind::usl})
     for_each_case([order](const Case& c) {
       if (unstable(c, order)) return;
       benchmark::RegisterBenchmark(

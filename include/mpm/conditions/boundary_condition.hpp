@@ -3,19 +3,9 @@
 
 #include <mpm/conditions/reaction.hpp>
 #include <mpm/grid/node_fields.hpp>
+#include <mpm/transfer/scheme.hpp>
 
 namespace mpm {
-
-/// Which momentum a reaction is measured from; it must fit the scheme, or the energy balance opens
-/// by a quarter of the work.
-enum class ReactionBook {
-  /// FLIP: particles receive (v after - v constrained before), so the projection of the particle
-  /// velocities onto the wall is no impulse: R dt = m (v after constraint - v before constraint),
-  /// both with the constrained velocity at the start of the step.
-  increments,
-  /// PIC, APIC, TPIC: particles receive the velocity itself: R dt = m v after - (mv + f dt).
-  velocities
-};
 
 template <int Dim>
 class BoundaryCondition {

@@ -14,4 +14,8 @@ namespace mpm {
 std::unique_ptr<Law<2>> make_hencky(PlaneAssumption plane, const IsotropicConstants& elastic,
                                     double density, std::optional<YieldConstants> yield);
 
+/// In space; purely elastic without `yield`.
+std::unique_ptr<Law<3>> make_hencky_solid(const IsotropicConstants& elastic, double density,
+                                          std::optional<YieldConstants> yield);
+
 }  // namespace mpm

@@ -44,6 +44,9 @@ class Law {
 
   /// Speed of the fastest wave in the undeformed material, m/s.
   virtual double wave_speed() const = 0;
+  /// Square of the speed of the fastest wave in the particles of one block as they are now, or an
+  /// upper bound, m^2/s^2; lanes of padding may hold anything.
+  virtual Lanes fastest_wave_squared(const double* state) const = 0;
 };
 
 /// A material and its particles on this rank.

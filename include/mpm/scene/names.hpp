@@ -40,20 +40,6 @@ template <>
 inline constexpr auto names_of<Sampling> = std::to_array<Named<Sampling>>(
     {{Sampling::match, "match"}, {Sampling::threshold, "threshold"}});
 template <>
-inline constexpr auto names_of<ShapeFunction> =
-    std::to_array<Named<ShapeFunction>>({{ShapeFunction::linear, "linear"},
-                                         {ShapeFunction::gimp, "gimp"},
-                                         {ShapeFunction::quadratic, "quadratic"}});
-template <>
-inline constexpr auto names_of<TransferScheme> =
-    std::to_array<Named<TransferScheme>>({{TransferScheme::flip, "flip"},
-                                          {TransferScheme::pic, "pic"},
-                                          {TransferScheme::apic, "apic"},
-                                          {TransferScheme::tpic, "tpic"}});
-template <>
-inline constexpr auto names_of<UpdateOrder> = std::to_array<Named<UpdateOrder>>(
-    {{UpdateOrder::musl, "musl"}, {UpdateOrder::usf, "usf"}, {UpdateOrder::usl, "usl"}});
-template <>
 inline constexpr auto names_of<DecompositionKind> =
     std::to_array<Named<DecompositionKind>>({{DecompositionKind::automatic, "auto"},
                                              {DecompositionKind::cuts, "cuts"},

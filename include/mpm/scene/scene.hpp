@@ -5,6 +5,7 @@
 #include <mpm/materials/laws.hpp>
 #include <mpm/scene/plane_or_space.hpp>
 #include <mpm/scene/shapes.hpp>
+#include <mpm/transfer/schemes.hpp>
 
 #include <array>
 #include <filesystem>
@@ -104,17 +105,14 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
-enum class ShapeFunction { linear, gimp, quadratic };
-enum class TransferScheme { flip, pic, apic, tpic };
-enum class UpdateOrder { musl, usf, usl };
 enum class DecompositionKind { automatic, cuts, metis };
 
 struct Numerics {
   Plane plane = Plane::strain;  ///< of a scene in the plane
   double thickness = 1;         ///< m, out of the plane
-  ShapeFunction shape_function = ShapeFunction::gimp;
-  TransferScheme scheme = TransferScheme::flip;
-  UpdateOrder update_order = UpdateOrder::musl;
+  OneOf<ShapeRow> shape_function = "gimp";
+  OneOf<SchemeRow> scheme = "flip";
+  OneOf<UpdateOrderRow> update_order = "musl";
   std::optional<double> cfl;  ///< default depends on shape function and update order
   DecompositionKind decomposition = DecompositionKind::automatic;
   PerAxis<int> ranks{};          ///< process grid of cuts; 0: chosen

@@ -12,8 +12,6 @@ namespace mpm {
 double default_cfl(const scene::Numerics& numerics);
 
 template <int Dim>
-std::unique_ptr<UpdateOrder<Dim>> make_update_order(const scene::Numerics& numerics);
-template <int Dim>
 std::unique_ptr<Transfer<Dim>> make_transfer(const scene::Numerics& numerics,
                                              int particles_per_cell);
 

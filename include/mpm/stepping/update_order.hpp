@@ -2,6 +2,7 @@
 /// The orders in which a step updates stress and velocity.
 
 #include <mpm/stepping/step.hpp>
+#include <mpm/transfer/schemes.hpp>
 
 #include <memory>
 #include <span>
@@ -27,6 +28,9 @@ class UpdateOrder {
   virtual double stress_moment() const { return 0.5; }
   virtual void step(Step<Dim>& step, double dt) const = 0;
 };
+
+template <int Dim>
+std::unique_ptr<UpdateOrder<Dim>> make_update_order(UpdateOrderKind kind);
 
 /// Modified update stress last: the stress sees the particles' new velocities, mapped back.
 template <int Dim>

@@ -1,30 +1,37 @@
 #pragma once
-/// Transfer schemes: how particles learn from the grid, and what they tell it.
+/// Transfer schemes: how particles learn from the grid, and what they tell it. Each is a type with
+///   increments      whether particles take increments from the grid or its velocity,
+///   affine          whether they have an affine velocity field,
+///   shape_gradient  whether that field comes from gradients of the shape function,
+///   row             what else the program knows of it.
 
 #include <mpm/core/types.hpp>
 #include <mpm/particles/particle_store.hpp>
+#include <mpm/shape/shape_row.hpp>
 
+#include <string_view>
 #include <vector>
 
 namespace mpm {
 
-/// v_p += dt S a: keeps every particle's own velocity (Brackbill & Ruppel 1986).
-struct Flip {
-  static constexpr bool increments = true, affine = false, shape_gradient = true;
+/// Which momentum a reaction is measured from; it must fit the scheme, or the energy balance opens
+/// by a quarter of the work.
+enum class ReactionBook {
+  /// FLIP: particles receive (v after - v constrained before), so the projection of the particle
+  /// velocities onto the wall is no impulse: R dt = m (v after constraint - v before constraint),
+  /// both with the constrained velocity at the start of the step.
+  increments,
+  /// PIC, APIC, TPIC: particles receive the velocity itself: R dt = m v after - (mv + f dt).
+  velocities
 };
-/// v_p = S v: interpolates, and damps strongly.
-struct Pic {
-  static constexpr bool increments = false, affine = false, shape_gradient = true;
-};
-/// PIC with an affine velocity field per particle, C = sum w v (x) (x_i - x_p) D^-1
-/// (Jiang, Schroeder & Teran 2017, JCP 338:137).
-struct Apic {
-  static constexpr bool increments = false, affine = true, shape_gradient = false;
-};
-/// PIC with the velocity gradient as affine field, C = sum v (x) g
-/// (Nakamura, Matsumura & Mizutani 2023, CMAME 403:115720).
-struct Tpic {
-  static constexpr bool increments = false, affine = true, shape_gradient = true;
+
+struct SchemeRow {
+  std::string_view keyword;
+  std::string_view help;
+  std::string_view words;  ///< in the plan of a run
+  ReactionBook book;
+  bool affine;  ///< whether particles have an affine velocity field
+  std::optional<double> StableCfl::*stable_cfl;
 };
 
 /// Where the motion columns of a particle lie. `grid_velocity` is there only for MUSL, whose

@@ -3,6 +3,7 @@
 
 #include <mpm/grid/node_fields.hpp>
 #include <mpm/materials/law.hpp>
+#include <mpm/transfer/schemes.hpp>
 
 #include <functional>
 #include <memory>
@@ -10,9 +11,6 @@
 #include <vector>
 
 namespace mpm {
-
-enum class ShapeKind { linear, gimp, quadratic };
-enum class SchemeKind { flip, pic, apic, tpic };
 
 /// A particle that went where this rank's nodes do not reach, or that is no longer a number.
 template <int Dim>
@@ -92,7 +90,7 @@ class Transfer {
 
 /// `particles_per_cell` per direction sets the particle domain of uniform GIMP.
 template <int Dim>
-std::unique_ptr<Transfer<Dim>> make_transfer(ShapeKind shape, SchemeKind scheme,
+std::unique_ptr<Transfer<Dim>> make_transfer(OneOf<ShapeRow> shape, OneOf<SchemeRow> scheme,
                                              int particles_per_cell);
 
 }  // namespace mpm

@@ -18,7 +18,7 @@ TEST_F(SceneDefaults, SixLinesCrushAMicrograph)
   EXPECT_THAT(*scene.specimen.micrograph->pixel_size, ElementsAre(2.3e-6, 2.3e-6));
   EXPECT_EQ(scene.specimen.micrograph->threshold, 150);
   EXPECT_EQ(scene.grid.particles_per_cell, 2);
-  EXPECT_EQ(scene.numerics.shape_function, ShapeFunction::gimp);
+  EXPECT_EQ(scene.numerics.shape_function, "gimp");
   EXPECT_EQ(scene.numerics.cfl, std::nullopt);
   EXPECT_EQ(std::get<Loading>(scene.motion).speed, 10);
   EXPECT_EQ(std::get<Loading>(scene.motion).strain, 0.6);

@@ -15,10 +15,14 @@ struct SampledShape {
   std::array<double, Support> weight, gradient;
 
   /// 0 for nodes outside the stencil.
-  double weight_of(int node) const
+  double weight_of(int node) const { return of(weight, node); }
+  double gradient_of(int node) const { return of(gradient, node); }
+
+ private:
+  double of(const std::array<double, Support>& values, int node) const
   {
     const int k = node - base;
-    return k < 0 || k >= Support ? 0.0 : weight[k];
+    return k < 0 || k >= Support ? 0.0 : values[k];
   }
 };
 

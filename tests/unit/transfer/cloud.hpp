@@ -11,26 +11,20 @@
 namespace mpm {
 
 struct TransferCase {
-  ShapeKind shape;
-  SchemeKind scheme;
+  OneOf<ShapeRow> shape;
+  OneOf<SchemeRow> scheme;
 };
 
-inline constexpr ShapeKind all_shapes[] = {ShapeKind::linear, ShapeKind::gimp,
-                                           ShapeKind::quadratic};
-inline constexpr SchemeKind all_schemes[] = {SchemeKind::flip, SchemeKind::pic, SchemeKind::apic,
-                                             SchemeKind::tpic};
-
 /// Every shape with every scheme.
-class TransferTest : public testing::TestWithParam<std::tuple<ShapeKind, SchemeKind>> {
+class TransferTest : public testing::TestWithParam<std::tuple<OneOf<ShapeRow>, OneOf<SchemeRow>>> {
  protected:
   TransferCase parameters() const { return {std::get<0>(GetParam()), std::get<1>(GetParam())}; }
 };
 
 inline std::string case_name(const testing::TestParamInfo<TransferTest::ParamType>& info)
 {
-  constexpr const char* shapes[] = {"Linear", "Gimp", "Quadratic"};
-  constexpr const char* schemes[] = {"Flip", "Pic", "Apic", "Tpic"};
-  return std::string(shapes[int(std::get<0>(info.param))]) + schemes[int(std::get<1>(info.param))];
+  return std::string(std::get<0>(info.param)->keyword) + "_" +
+         std::string(std::get<1>(info.param)->keyword);
 }
 
 /// Positions carry a relative rounding of 10 epsilon after the division by h; some tens of terms

@@ -5,8 +5,8 @@ namespace {
 
 class GridToParticle : public TransferTest {};
 INSTANTIATE_TEST_SUITE_P(All, GridToParticle,
-                         testing::Combine(testing::ValuesIn(all_shapes),
-                                          testing::ValuesIn(all_schemes)),
+                         testing::Combine(testing::ValuesIn(all_of_list<ShapeRow>()),
+                                          testing::ValuesIn(all_of_list<SchemeRow>())),
                          case_name);
 
 constexpr double dt = 0.01;
@@ -24,7 +24,9 @@ void expect_linear_fields_exactly(TransferCase c)
   });
   for (NaiveParticle<Dim>& p : cloud.particles) {
     const Vec<Dim> velocity = slope * p.x + offset;
-    p.v = c.scheme == SchemeKind::flip ? Vec<Dim>(p.v + increment_slope * p.x - offset) : velocity;
+    p.v = c.scheme->book == ReactionBook::increments
+              ? Vec<Dim>(p.v + increment_slope * p.x - offset)
+              : velocity;
     p.gradient = slope;
     if (cloud.naive.affine()) p.affine = slope;
     p.x += dt * velocity;
@@ -59,7 +61,7 @@ TEST_P(GridToParticle, OfARandomFieldEqualsTheDoubleLoop)
 
 TEST(FlipScheme, AddsTheIncrementAndForgetsTheGridVelocity)
 {
-  Cloud<2> cloud({ShapeKind::quadratic, SchemeKind::flip});
+  Cloud<2> cloud({"quadratic", "flip"});
   cloud.set_velocities([](NaiveNode<2>& n) {
     n.velocity = {100, 200};
     n.increment = {0.25, -0.5};
@@ -73,7 +75,7 @@ TEST(FlipScheme, AddsTheIncrementAndForgetsTheGridVelocity)
 
 TEST(PicScheme, TakesTheGridVelocityAndForgetsItsOwn)
 {
-  Cloud<2> cloud({ShapeKind::gimp, SchemeKind::pic});
+  Cloud<2> cloud({"gimp", "pic"});
   cloud.set_velocities([](NaiveNode<2>& n) {
     n.velocity = {3, 4};
     n.increment = {50, 60};
@@ -88,8 +90,8 @@ TEST(PicScheme, TakesTheGridVelocityAndForgetsItsOwn)
 template <int Dim>
 void expect_apic_to_be_tpic()
 {
-  Cloud<Dim> apic({ShapeKind::linear, SchemeKind::apic});
-  Cloud<Dim> tpic({ShapeKind::linear, SchemeKind::tpic});
+  Cloud<Dim> apic({"linear", "apic"});
+  Cloud<Dim> tpic({"linear", "tpic"});
   apic.set_random_velocities();
   tpic.set_random_velocities();  // the same ones
   apic.transfer->usl(apic.body, apic.grid.topology, apic.grid.fields, dt, apic.wide_bounds());
@@ -106,8 +108,8 @@ TEST(ApicScheme, IsTpicForLinearFunctions)
 
 TEST(ApicScheme, IsNotTpicForQuadraticFunctions)
 {
-  Cloud<2> apic({ShapeKind::quadratic, SchemeKind::apic});
-  Cloud<2> tpic({ShapeKind::quadratic, SchemeKind::tpic});
+  Cloud<2> apic({"quadratic", "apic"});
+  Cloud<2> tpic({"quadratic", "tpic"});
   apic.set_random_velocities();
   tpic.set_random_velocities();
   apic.transfer->usl(apic.body, apic.grid.topology, apic.grid.fields, dt, apic.wide_bounds());

@@ -11,7 +11,7 @@ constexpr double dt = 0.1;
 /// All nodes move with `velocity`; the particles too.
 Cloud<2> drifting_cloud(const Vec<2>& velocity)
 {
-  Cloud<2> cloud({ShapeKind::linear, SchemeKind::flip});
+  Cloud<2> cloud({"linear", "flip"});
   cloud.set_velocities([&](NaiveNode<2>& n) { n.velocity = velocity; });
   return cloud;
 }

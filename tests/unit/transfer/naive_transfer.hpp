@@ -2,6 +2,8 @@
 /// The transfer formulae written out plainly: one particle, one node, one axis at a time, every
 /// particle with every node. Weights from their published piecewise definitions.
 
+#include <mpm/shape/shape_types.hpp>
+#include <mpm/transfer/scheme_types.hpp>
 #include <mpm/transfer/transfer.hpp>
 
 #include <Eigen/LU>
@@ -12,16 +14,17 @@
 namespace mpm {
 
 struct NaiveShape {
-  ShapeKind kind;
+  OneOf<ShapeRow> kind;
   double l;  ///< half size of a particle domain in cells
 
   /// r = (x_p - x_i) / h
   double weight(double r) const
   {
     const double a = std::abs(r);
-    if (kind == ShapeKind::linear) return a < 1 ? 1 - a : 0;
-    if (kind == ShapeKind::quadratic)
+    if (kind == "linear") return a < 1 ? 1 - a : 0;
+    if (kind == "quadratic")
       return a < 0.5 ? 0.75 - r * r : a < 1.5 ? 0.5 * (1.5 - a) * (1.5 - a) : 0;
+    if (kind != "gimp") return sampled(r).first;
     if (a < l) return 1 - (r * r + l * l) / (2 * l);
     if (a <= 1 - l) return 1 - a;
     return a < 1 + l ? (1 + l - a) * (1 + l - a) / (4 * l) : 0;
@@ -29,11 +32,29 @@ struct NaiveShape {
   double slope(double r) const
   {
     const double a = std::abs(r), s = r < 0 ? -1 : 1;
-    if (kind == ShapeKind::linear) return r >= -1 && r < 1 ? -s : 0;
-    if (kind == ShapeKind::quadratic) return a < 0.5 ? -2 * r : a < 1.5 ? -s * (1.5 - a) : 0;
+    if (kind == "linear") return r >= -1 && r < 1 ? -s : 0;
+    if (kind == "quadratic") return a < 0.5 ? -2 * r : a < 1.5 ? -s * (1.5 - a) : 0;
+    if (kind != "gimp") return sampled(r).second;
     if (a < l) return -r / l;
     if (a <= 1 - l) return -s;
     return a < 1 + l ? -s * (1 + l - a) / (2 * l) : 0;
+  }
+
+ private:
+  /// Weight and slope of a shape function that is not written out here, from its own code: that one
+  /// is tested by itself (tests/unit/shape).
+  std::pair<double, double> sampled(double r) const
+  {
+    std::pair<double, double> result{0, 0};
+    for_each_type(ShapeTypes{}, [&]<class Shape>() {
+      if (kind != Shape::row.keyword) return;
+      const Shape shape = Shape::make(int(std::lround(0.5 / l)));
+      const double base = std::floor(r - shape.base_shift());
+      Lanes w[Shape::support], g[Shape::support];
+      shape.weights(Lanes(r - base), 1, w, g);
+      if (base <= 0 && -base < Shape::support) result = {w[int(-base)][0], g[int(-base)][0]};
+    });
+    return result;
   }
 };
 
@@ -62,10 +83,10 @@ struct NaiveTransfer {
   using Nodes = std::vector<NaiveNode<Dim>>;
 
   NaiveShape shape;
-  SchemeKind scheme;
+  OneOf<SchemeRow> scheme;
   Vec<Dim> h;
 
-  bool affine() const { return scheme == SchemeKind::apic || scheme == SchemeKind::tpic; }
+  bool affine() const { return scheme->affine; }
 
   double weight(const Vec<Dim>& x, const NaiveNode<Dim>& node) const
   {
@@ -99,6 +120,10 @@ struct NaiveTransfer {
   /// Velocity, affine field and the velocity to move with.
   void velocity_to_particles(const Nodes& nodes, Particles& particles) const
   {
+    bool gradients = false;  // the affine field comes from gradients of the shape function
+    for_each_type(SchemeTypes{}, [&]<class Scheme>() {
+      if (scheme == Scheme::row.keyword) gradients = Scheme::shape_gradient;
+    });
     for (auto& p : particles) {
       Vec<Dim> increment = Vec<Dim>::Zero();
       Matrix<Dim> moment = Matrix<Dim>::Zero(), b = Matrix<Dim>::Zero();
@@ -109,13 +134,11 @@ struct NaiveTransfer {
         p.u += w * node.velocity;
         increment += w * node.increment;
         moment += w * offset * offset.transpose();
-        b += scheme == SchemeKind::apic
-                 ? Matrix<Dim>(w * node.velocity * offset.transpose())
-                 : Matrix<Dim>(node.velocity * gradient(p.x, node).transpose());
+        b += gradients ? Matrix<Dim>(node.velocity * gradient(p.x, node).transpose())
+                       : Matrix<Dim>(w * node.velocity * offset.transpose());
       }
-      p.v = scheme == SchemeKind::flip ? Vec<Dim>(p.v + increment) : p.u;
-      if (scheme == SchemeKind::apic) p.affine = b * moment.inverse();
-      if (scheme == SchemeKind::tpic) p.affine = b;
+      p.v = scheme->book == ReactionBook::increments ? Vec<Dim>(p.v + increment) : p.u;
+      if (affine()) p.affine = gradients ? b : Matrix<Dim>(b * moment.inverse());
     }
   }
 

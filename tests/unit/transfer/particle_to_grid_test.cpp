@@ -8,8 +8,8 @@ namespace {
 
 class ParticleToGrid : public TransferTest {};
 INSTANTIATE_TEST_SUITE_P(All, ParticleToGrid,
-                         testing::Combine(testing::ValuesIn(all_shapes),
-                                          testing::ValuesIn(all_schemes)),
+                         testing::Combine(testing::ValuesIn(all_of_list<ShapeRow>()),
+                                          testing::ValuesIn(all_of_list<SchemeRow>())),
                          case_name);
 
 template <int Dim>
@@ -124,9 +124,9 @@ TEST_P(ParticleToGrid, WithoutForceLeavesTheForcesZero)
 }
 
 template <int Dim>
-void put_particles_on_grid_lines(ShapeKind shape)
+void put_particles_on_grid_lines(OneOf<ShapeRow> shape)
 {
-  Cloud<Dim> cloud({shape, SchemeKind::flip});
+  Cloud<Dim> cloud({shape, "flip"});
   for (int p = 0; p < cloud.count; ++p)
     for (int d = 0; d < Dim; ++d)
       cloud.particles[p].x[d] =
@@ -141,7 +141,7 @@ void put_particles_on_grid_lines(ShapeKind shape)
 
 TEST(ParticleToGridOnGridLines, EqualsTheDoubleLoop)
 {
-  for (const ShapeKind shape : all_shapes) {
+  for (const OneOf<ShapeRow> shape : all_of_list<ShapeRow>()) {
     put_particles_on_grid_lines<2>(shape);
     put_particles_on_grid_lines<3>(shape);
   }

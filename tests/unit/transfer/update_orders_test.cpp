@@ -4,10 +4,10 @@
 namespace mpm {
 namespace {
 
-class UpdateOrder : public TransferTest {};
-INSTANTIATE_TEST_SUITE_P(All, UpdateOrder,
-                         testing::Combine(testing::ValuesIn(all_shapes),
-                                          testing::ValuesIn(all_schemes)),
+class UpdateOrders : public TransferTest {};
+INSTANTIATE_TEST_SUITE_P(All, UpdateOrders,
+                         testing::Combine(testing::ValuesIn(all_of_list<ShapeRow>()),
+                                          testing::ValuesIn(all_of_list<SchemeRow>())),
                          case_name);
 
 constexpr double dt = 0.02;
@@ -49,7 +49,7 @@ void expect_musl(TransferCase c)
   expect_nodes_equal(cloud);
 }
 
-TEST_P(UpdateOrder, MuslRemapsTheNewVelocitiesThenUpdatesStressAndMoves)
+TEST_P(UpdateOrders, MuslRemapsTheNewVelocitiesThenUpdatesStressAndMoves)
 {
   expect_musl<2>(parameters());
   expect_musl<3>(parameters());
@@ -81,7 +81,7 @@ void expect_usf(TransferCase c)
   expect_nodes_equal(cloud);
 }
 
-TEST_P(UpdateOrder, UsfUpdatesStressAtTheOldPlaceThenVelocityAndPlace)
+TEST_P(UpdateOrders, UsfUpdatesStressAtTheOldPlaceThenVelocityAndPlace)
 {
   expect_usf<2>(parameters());
   expect_usf<3>(parameters());
@@ -101,7 +101,7 @@ void expect_usl(TransferCase c)
   expect_nodes_equal(cloud);
 }
 
-TEST_P(UpdateOrder, UslDoesEverythingInOnePass)
+TEST_P(UpdateOrders, UslDoesEverythingInOnePass)
 {
   expect_usl<2>(parameters());
   expect_usl<3>(parameters());

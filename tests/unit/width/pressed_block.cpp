@@ -7,6 +7,7 @@
 #include <mpm/shape/gimp.hpp>
 #include <mpm/shape/linear.hpp>
 #include <mpm/shape/quadratic.hpp>
+#include <mpm/transfer/flip.hpp>
 #include <mpm/transfer/kernel_transfer.hpp>
 
 #include <cstdio>

@@ -1,0 +1,154 @@
+#include <mpm/materials/hencky.hpp>
+#include <mpm/materials/logarithmic_wave.hpp>
+#include <mpm/materials/space_logarithm.hpp>
+
+#include <cmath>
+
+namespace mpm {
+
+namespace {
+
+template <bool Plastic>
+class HenckySolid final : public Law<3> {
+  enum : int { volume = 0, be, plastic_strain = be + 6, plastic_work };
+  static constexpr int columns = Plastic ? plastic_work + 1 : plastic_strain;
+
+ public:
+  HenckySolid(const IsotropicConstants& elastic, double density, const YieldConstants& yield)
+      : density_(density),
+        yield_(yield),
+        mu_(elastic.shear_modulus()),
+        bulk_(elastic.bulk_modulus()),
+        inverse_two_mu_(0.5 / mu_),
+        wave_speed_(std::sqrt(elastic.wave_modulus() / density))
+  {
+  }
+
+  std::vector<Column> state_columns() const override
+  {
+    std::vector<Column> list{{"initial_volume", 1, "m3"}, {"elastic_left_cauchy_green", 6, "1"}};
+    if (Plastic) {
+      list.push_back({"plastic_strain", 1, "1"});
+      list.push_back({"plastic_work", 1, "J"});
+    }
+    return list;
+  }
+
+  void initialise(ColumnGroup& state, LocalIndex particle) const override
+  {
+    for (int d = 0; d < 3; ++d) state(be + d, particle) = 1;
+  }
+
+  void update(double* state, int blocks, const double* gradient, double dt,
+              double* force_stress) const override
+  {
+    for (int k = 0; k < blocks; ++k) {
+      double* s = state + k * columns * lane_count;
+      const double* l = gradient + k * 9 * lane_count;
+      Tensor f;  // I + dt L; b_e = f b_e f^T
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          f.a[i][j] = double(i == j) + dt * load(l + (i + 3 * j) * lane_count);
+      Symmetric b = elastic_left_cauchy_green(s).turned(f);
+      LogarithmicStrain e(b);
+      if constexpr (Plastic) return_radially(s, e, b);
+      store_scaled(b, 1.0, s + be * lane_count);
+      store_scaled(kirchhoff(e), at(s, volume), force_stress + k * 6 * lane_count);
+    }
+  }
+
+  void force_stress(const double* state, int blocks, double* force_stress) const override
+  {
+    for (int k = 0; k < blocks; ++k) {
+      const double* s = state + k * columns * lane_count;
+      store_scaled(kirchhoff(elastic_strain(s)), at(s, volume), force_stress + k * 6 * lane_count);
+    }
+  }
+
+  void cauchy_stress(const double* s, double* stress) const override
+  {
+    const LogarithmicStrain e = elastic_strain(s);
+    // Plastic flow keeps the volume: J = sqrt(det b_e) = exp(trace).
+    store_scaled(kirchhoff(e), lane_exp(-e.trace), stress);
+  }
+
+  Lanes elastic_energy(const double* s) const override
+  {
+    const LogarithmicStrain e = elastic_strain(s);
+    return at(s, volume) * (0.5 * bulk_ * e.trace * e.trace + mu_ * e.deviator.squared());
+  }
+
+  double wave_speed() const override { return wave_speed_; }
+
+  Lanes fastest_wave_squared(const double* state) const override
+  {
+    return logarithmic_wave_squared(*this, density_, state);
+  }
+
+ private:
+  static Lanes at(const double* s, int column) { return load(s + column * lane_count); }
+  static Symmetric elastic_left_cauchy_green(const double* s)
+  {
+    return load_symmetric(s + be * lane_count);
+  }
+  static LogarithmicStrain elastic_strain(const double* s)
+  {
+    return LogarithmicStrain(elastic_left_cauchy_green(s));
+  }
+
+  Symmetric kirchhoff(const LogarithmicStrain& e) const
+  {
+    const Lanes pressure = bulk_ * e.trace;
+    const double two_mu = 2 * mu_;
+    const Symmetric& d = e.deviator;
+    return {pressure + two_mu * d.xx,
+            pressure + two_mu * d.yy,
+            pressure + two_mu * d.zz,
+            two_mu * d.xy,
+            two_mu * d.yz,
+            two_mu * d.xz};
+  }
+
+  /// Radial return of the deviator of the logarithmic strain; the trace stays. Lanes that do not
+  /// flow keep their b_e to the last bit.
+  void return_radially(double* s, LogarithmicStrain& e, Symmetric& b) const
+  {
+    const Lanes squared = 1.5 * e.deviator.squared();  // (q / 2 mu)^2
+    const Lanes hardening = at(s, plastic_strain);
+    const Lanes limit =
+        (yield_.yield_stress + yield_.hardening_modulus * hardening) * inverse_two_mu_;
+    const LaneMask yields = squared > limit * limit;
+    if (!stdx::any_of(yields)) return;
+    const Lanes q = stdx::sqrt(squared);
+    Lanes multiplier = 0.0, scale = 1.0;
+    stdx::where(yields, multiplier) = 2 * mu_ * (q - limit) / (3 * mu_ + yield_.hardening_modulus);
+    stdx::where(yields, scale) = 1.0 - 1.5 * multiplier / q;
+    const Symmetric d = e.deviator;
+    const auto scaled = [&](const Lanes& by) {
+      return Symmetric{by * d.xx, by * d.yy, by * d.zz, by * d.xy, by * d.yz, by * d.xz};
+    };
+    e.deviator = scaled(scale);
+    put_where(yields, exponential_of_deviator(scaled(2.0 * scale), lane_exp(2.0 / 3.0 * e.trace)),
+              b);
+    const Lanes strain = hardening + multiplier;
+    store(strain, s + plastic_strain * lane_count);
+    const Lanes flow_stress = yield_.yield_stress + yield_.hardening_modulus * strain;
+    store(at(s, plastic_work) + at(s, volume) * flow_stress * multiplier,
+          s + plastic_work * lane_count);
+  }
+
+  double density_;
+  YieldConstants yield_;
+  double mu_, bulk_, inverse_two_mu_, wave_speed_;
+};
+
+}  // namespace
+
+std::unique_ptr<Law<3>> make_hencky_solid(const IsotropicConstants& elastic, double density,
+                                          std::optional<YieldConstants> yield)
+{
+  if (yield) return std::make_unique<HenckySolid<true>>(elastic, density, *yield);
+  return std::make_unique<HenckySolid<false>>(elastic, density, YieldConstants{0});
+}
+
+}  // namespace mpm
