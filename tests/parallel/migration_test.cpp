@@ -1,7 +1,5 @@
 /// Particles that leave a rank in a step.
 
-#include <mpm/transfer/tpic.hpp>
-
 #include "particle_cloud.hpp"
 #include "ragged_blocks.hpp"
 #include <gmock/gmock.h>

@@ -8,6 +8,7 @@
 #include <mpm/parallel/session.hpp>
 #include <mpm/transfer/apic.hpp>
 #include <mpm/transfer/flip.hpp>
+#include <mpm/transfer/tpic.hpp>
 
 #include <algorithm>
 #include <cmath>
