@@ -120,7 +120,8 @@ void History<Dim>::take_reactions(HistoryLine& line)
   if (!apparatus_) return;
   // A wall at the upper end pushes towards lower coordinates.
   const double towards = apparatus_->piston->placement().upper ? -1 : 1;
-  const double per_area = 1 / (apparatus_->area * std::max(line.time - last_time_, 1e-300));
+  const double duration = line.time - last_time_;
+  const double per_area = duration > 0 ? 1 / (apparatus_->area * duration) : 0;
   // + 0.0: no minus before a zero.
   line.piston_stress = towards * piston_impulse * per_area + 0.0;
   line.edge_stress = -towards * edge_impulse * per_area + 0.0;

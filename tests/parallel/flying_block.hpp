@@ -35,6 +35,7 @@ inline std::string name_of(const Method& m)
 struct Block {
   IndexVec<2> first_cell, cells;  ///< of the grid
   Vec<2> velocity;                ///< m/s
+  int field = 0;                  ///< velocity field
 };
 
 /// Everything that all ranks hold of all particles, by id.
@@ -115,6 +116,7 @@ class BlockRun {
            ParticleStore(
                transfer->motion_columns(method.order == UpdateOrderKind::musl), std::move(state),
                {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume"})});
+      bodies.back().field = block.field;
       fill(bodies.back(), block);
     }
     constexpr double volume = 0.25 * cell * cell;

@@ -20,13 +20,18 @@ int ranks()
   return ranks_of(MPI_COMM_WORLD);
 }
 
-/// Ranks in two rows, so that four of them meet in a corner; a row where their number is odd.
+/// Ranks in two rows, so that four of them meet in a corner; a row where their number is odd. In
+/// space eight meet in a corner of 2 x 2 x 2 and of 3 x 2 x 2.
 template <int Dim>
 IndexVec<Dim> two_rows()
 {
   IndexVec<Dim> wish = IndexVec<Dim>::Constant(1);
   wish[0] = ranks() % 2 == 0 ? ranks() / 2 : ranks();
   wish[1] = ranks() % 2 == 0 ? 2 : 1;
+  if (Dim == 3 && ranks() >= 8 && ranks() % 4 == 0) {
+    wish[0] = ranks() / 4;
+    wish[2] = 2;
+  }
   return wish;
 }
 
@@ -91,9 +96,9 @@ std::vector<SumCase<Dim>> node_sums(NodeFields<Dim>& fields)
 }
 
 template <int Dim>
-GridGeometry<Dim> grid_of(const IndexVec<Dim>& nodes)
+GridGeometry<Dim> grid_of(const IndexVec<Dim>& nodes, std::array<bool, Dim> periodic = {})
 {
-  return {Vec<Dim>::Zero(), Vec<Dim>::Ones(), nodes};
+  return {Vec<Dim>::Zero(), Vec<Dim>::Ones(), nodes, periodic};
 }
 
 template <int Dim>
@@ -117,19 +122,43 @@ class Sharing {
   NodeGrid<Dim>& grid() { return grid_; }
   const Decomposition<Dim>& decomposition() const { return decomposition_; }
 
-  /// Ranks with a cell so near that a particle in it, or in one next to it, may touch the node.
-  std::set<int> sharers(const IndexVec<Dim>& node) const
+  /// A rank that holds a node, and in which period.
+  using Holder = std::pair<int, std::array<LocalIndex, Dim>>;
+  /// Ranks with a cell so near that a particle in it, or in one next to it, may touch the node, in
+  /// the order of the sum.
+  std::set<Holder> holders(const IndexVec<Dim>& node) const
   {
     // Cell i has nodes i and i + 1; wider functions reach one node further to each side.
     const LocalIndex below = support_ == 2 ? 1 : 2, above = support_ == 2 ? 2 : 3;
-    const IndexBox<Dim> around{(node.array() - above).matrix(),
-                               (node.array() + below + 1).matrix()};
-    const IndexBox<Dim> all{IndexVec<Dim>::Zero(), decomposition_.geometry().nodes};
-    std::set<int> ranks;
-    for_each_index(intersection(around, all), [&](const IndexVec<Dim>& cell) {
-      ranks.insert(decomposition_.owner_of_cell(cell));
+    const GridGeometry<Dim>& geometry = decomposition_.geometry();
+    IndexBox<Dim> around{(node.array() - above).matrix(), (node.array() + below + 1).matrix()};
+    for (int d = 0; d < Dim; ++d) {
+      if (geometry.periodic[d]) continue;
+      around.lower[d] = std::max(around.lower[d], 0);
+      around.upper[d] = std::min(around.upper[d], geometry.nodes[d]);
+    }
+    std::set<Holder> found;
+    for_each_index(around, [&](const IndexVec<Dim>& cell) {
+      Holder holder{decomposition_.owner_of_cell(cell), {}};
+      // Whoever owns an image of the cell sees the node as many periods nearer.
+      for (int d = 0; d < Dim; ++d)
+        holder.second[d] = geometry.periods_of(node)[d] - geometry.periods_of(cell)[d];
+      found.insert(holder);
     });
+    return found;
+  }
+  std::set<int> sharers(const IndexVec<Dim>& node) const
+  {
+    std::set<int> ranks;
+    for (const Holder& holder : holders(node)) ranks.insert(holder.first);
     return ranks;
+  }
+  /// The node where this rank holds it.
+  bool is_held(const IndexVec<Dim>& node) const
+  {
+    Holder here{rank(), {}};
+    for (int d = 0; d < Dim; ++d) here.second[d] = decomposition_.geometry().periods_of(node)[d];
+    return holders(node).contains(here);
   }
 
   /// The serial sum, in the order of the ranks: the same bits, so no tolerance.
@@ -144,13 +173,18 @@ class Sharing {
       });
       halo_.sum(sum.columns);
       int wrong = 0;
+      const IndexVec<Dim>& nodes = decomposition_.geometry().nodes;
       for_each_index(grid_.topology.local(), [&](const IndexVec<Dim>& node) {
-        const std::set<int> together = sharers(node);
+        const std::set<Holder> together = holders(node);
+        const bool held = is_held(node);
         for (int slot = 0; slot < S::count; ++slot) {
           double expected = 0;
-          if (sum.slots.contains(slot) && together.contains(rank()))
-            for (const int sharer : together)
-              expected += partial_value(sharer, number(node) + round, slot);
+          if (sum.slots.contains(slot) && held)
+            for (const auto& [sharer, periods] : together) {
+              IndexVec<Dim> there = decomposition_.geometry().wrapped(node);
+              for (int d = 0; d < Dim; ++d) there[d] += periods[d] * nodes[d];
+              expected += partial_value(sharer, number(there) + round, slot);
+            }
           else
             expected = partial_value(rank(), number(node) + round, slot);
           wrong += S::of(grid_, grid_.topology.index_of(node), slot) != expected;
@@ -166,11 +200,13 @@ class Sharing {
     std::set<int> neighbours;
     GlobalIndex sent = 0;
     for_each_index(grid_.topology.local(), [&](const IndexVec<Dim>& node) {
-      const std::set<int> together = sharers(node);
-      if (together.size() < 2 || !together.contains(rank())) return;
+      const std::set<Holder> together = holders(node);
+      if (together.size() < 2 || !is_held(node)) return;
       shared.push_back(grid_.topology.index_of(node));
-      sent += GlobalIndex(together.size()) - 1;
-      neighbours.insert(together.begin(), together.end());
+      for (const Holder& holder : together) {
+        sent += holder.first != rank();
+        neighbours.insert(holder.first);
+      }
     });
     neighbours.erase(rank());
     std::ranges::sort(shared);
@@ -182,8 +218,9 @@ class Sharing {
  private:
   GlobalIndex number(const IndexVec<Dim>& node) const
   {
-    GlobalIndex number = 0;
-    for (int d = Dim; d-- > 0;) number = number * decomposition_.geometry().nodes[d] + node[d];
+    GlobalIndex number = 0;  // another one for every image
+    for (int d = Dim; d-- > 0;)
+      number = number * (3 * decomposition_.geometry().nodes[d] + 50) + node[d] + 20;
     return number;
   }
 
@@ -253,6 +290,45 @@ TEST_P(HaloOfSupport, SumsHoldOnPartsOfAnyShapeInSpace)
   Sharing<3> mapped({MPI_COMM_WORLD, metis_blocks(grid, ranks())}, GetParam());
   mapped.expect_serial_sums(0);
   mapped.expect_only_shared_nodes_are_exchanged();
+}
+
+/// Weighted cuts of a grid that begins again where it ends.
+template <int Dim>
+Decomposition<Dim> periodic_cuts(const IndexVec<Dim>& nodes, const IndexVec<Dim>& wish,
+                                 std::array<bool, Dim> periodic)
+{
+  return {MPI_COMM_WORLD, grid_of<Dim>(nodes, periodic), wish, {}, {}};
+}
+
+TEST_P(HaloOfSupport, SumsHoldAcrossTheSeamsOfPeriodicAxesInAPlane)
+{
+  for (const std::array<bool, 2> periodic :
+       {std::array{true, false}, {false, true}, {true, true}}) {
+    Sharing<2> sharing(periodic_cuts<2>({18, 14}, two_rows<2>(), periodic), GetParam());
+    sharing.expect_serial_sums(0);
+    sharing.expect_only_shared_nodes_are_exchanged();
+    Sharing<2> mapped({MPI_COMM_WORLD, metis_blocks(grid_of<2>({17, 19}, periodic), ranks())},
+                      GetParam());
+    mapped.expect_serial_sums(1);
+    mapped.expect_only_shared_nodes_are_exchanged();
+  }
+}
+
+TEST_P(HaloOfSupport, SumsHoldAcrossTheSeamsOfPeriodicAxesInSpace)
+{
+  for (const std::array<bool, 3> periodic : {std::array{true, false, false}, {true, true, true}}) {
+    Sharing<3> sharing(periodic_cuts<3>({12, 9, 7}, two_rows<3>(), periodic), GetParam());
+    sharing.expect_serial_sums(0);
+    sharing.expect_only_shared_nodes_are_exchanged();
+  }
+}
+
+TEST_P(HaloOfSupport, SumsHoldWhereARankHoldsANodeSeveralTimes)
+{
+  // Four cells around: a stencil and its halo reach further than once around.
+  Sharing<2> sharing(periodic_cuts<2>({4, 2 * ranks()}, {1, ranks()}, {true, true}), GetParam());
+  sharing.expect_serial_sums(0);
+  sharing.expect_only_shared_nodes_are_exchanged();
 }
 
 TEST_P(HaloOfSupport, EveryNodeHasOneOwnerAndTheOwnerReachesIt)

@@ -17,7 +17,8 @@ scene::Scene scene_of(scene::PerAxis<double> size, scene::PerAxis<int> cells,
 {
   scene::Scene scene;
   scene.dimensions = 3;
-  scene.materials = {{.name = "soft", .density = 1000}, {.name = "hard", .density = 3000}};
+  scene.materials = {scene::Material{.name = "soft", .values = {{"density", 1000.0}}},
+                     scene::Material{.name = "hard", .values = {{"density", 3000.0}}}};
   scene.specimen.size = size;
   scene.specimen.shapes = std::move(shapes);
   scene.grid.cells = cells;

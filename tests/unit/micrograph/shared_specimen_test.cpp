@@ -28,7 +28,8 @@ class SharedSpecimen : public testing::Test {
  protected:
   SharedSpecimen()
   {
-    scene_.materials = {{.name = "wall", .density = 1500}, {.name = "ray", .density = 1400}};
+    scene_.materials = {scene::Material{.name = "wall", .values = {{"density", 1500.0}}},
+                        scene::Material{.name = "ray", .values = {{"density", 1400.0}}}};
     scene_.specimen.micrograph.emplace();
     micrograph().file = directory_.write("picture.bmp", gray_bmp(noisy_picture()));
     micrograph().pixel_size = {1e-6, 1e-6};
