@@ -8,7 +8,7 @@ LawRow rigid_law()
   return {.keyword = "rigid",
           .help = "cannot be deformed; moves with its velocity",
           .parameters = {{.key = "velocity",
-                          .help = "prescribed velocity [x, y]",
+                          .help = "prescribed velocity",
                           .quantity = Quantity::velocity,
                           .fallback = std::vector{0.0, 0.0, 0.0}}}};
 }

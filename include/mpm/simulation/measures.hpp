@@ -3,11 +3,10 @@
 
 #include <mpm/conditions/rigid_wall.hpp>
 #include <mpm/materials/law.hpp>
+#include <mpm/parallel/session.hpp>
 
 #include <span>
 #include <vector>
-
-#include <mpi.h>
 
 namespace mpm {
 
