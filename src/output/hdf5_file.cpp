@@ -156,6 +156,7 @@ void Hdf5File::write(const std::string& dataset, const std::string& unit, int co
 
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+  H5Pset_obj_track_times(creation, false);  // equal runs write equal files
   if (compression_ == Compression::gzip && all > 0) {
     const std::array<hsize_t, 2> chunk{std::min(total[0], chunk_rows), total[1]};
     H5Pset_chunk(creation, rank, chunk.data());

@@ -1,0 +1,44 @@
+"""Two runs of the same scene on the same ranks are the same to the last bit, also where the borders
+between the ranks move: history and snapshots are compared byte by byte."""
+import pathlib
+import unittest
+
+from program import ProgramTest, mpm_par, summary
+
+INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
+FIELDS = "output.fields=[velocity, stress, plastic_work, id, rank]"
+
+
+class Repeatability(ProgramTest):
+    def run_once(self, scene, label, ranks, settings):
+        folder = self.folder / label
+        options = [word for setting in settings for word in ("--set", setting)]
+        run = mpm_par(INPUTS / scene, "--output", folder, *options, ranks=ranks, timeout=600)
+        self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+        files = {path.name: path.read_bytes()
+                 for path in [folder / "history.csv", *(folder / "snapshots").glob("*.h5")]}
+        return files, summary(folder)
+
+    def check_repeats(self, scene, ranks, *settings):
+        (first, found), (second, _) = [
+            self.run_once(scene, f"on_{ranks}_{k}", ranks, settings) for k in (0, 1)]
+        self.assertGreater(found["repartitions"], 0)
+        self.assertGreater(len(first), 1)
+        self.assertEqual(first.keys(), second.keys())
+        for name in first:
+            self.assertTrue(first[name] == second[name], f"{name} differs on {ranks} ranks")
+
+    def test_ponderosa_repeats_itself_while_borders_move_often(self):
+        for ranks in 2, 3:
+            self.check_repeats("wood/ponderosa_tangential.yaml", ranks, "steps=3000",
+                               "loading.speed=60 m/s", "loading.ramp_time=0 s", FIELDS,
+                               "output.snapshots.strains=[0 %, 1 %]",
+                               "numerics.repartition_interval=100")
+
+    def test_one_sided_block_repeats_itself_where_borders_move_by_themselves(self):
+        self.check_repeats("benchmarks/one_sided.yaml", 3, "steps=700", "grid.cells=[100, 100]",
+                           "output.snapshots.times=[0 s, 2 us]", FIELDS)
+
+
+if __name__ == "__main__":
+    unittest.main()
