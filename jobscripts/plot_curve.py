@@ -52,6 +52,20 @@ def describe(properties):
         yield "remark", properties["remark"]
 
 
+def draw_plateau(axes, properties, top):
+    """The lines that meet in the onset of densification, which need not lie on the curve."""
+    buckling, densification = properties.get("buckling"), properties.get("densification")
+    if not buckling or not densification or "plateau_slope" not in properties:
+        return
+    start, corner = ((100 * p["strain"], p["stress"] / 1e6) for p in (buckling, densification))
+    slope = properties["densification_slope"] / 1e8  # MPa per % strain
+    line = {"color": "#222222", "lw": 0.9, "ls": ":", "zorder": 4}
+    axes.plot([start[0], corner[0]], [start[1], corner[1]], **line, label="plateau, densification")
+    if slope > 0:
+        end = corner[0] + min(top - corner[1], 4 * corner[1]) / slope
+        axes.plot([corner[0], end], [corner[1], corner[1] + slope * (end - corner[0])], **line)
+
+
 def draw(columns, properties, title, path):
     import matplotlib
     matplotlib.use("Agg")
@@ -76,6 +90,7 @@ def draw(columns, properties, title, path):
                   [intercept / 1e6, (intercept + properties["modulus"] * end) / 1e6], "--",
                   color="#222222", lw=1.3, zorder=4,
                   label=f"E = {properties['modulus'] / 1e6:.0f} MPa")
+    draw_plateau(axes, properties, top)
     for onset, name, marker in onsets:
         axes.plot(100 * onset["strain"], onset["stress"] / 1e6, marker, color="#b03a2e", ms=7,
                   mec="white", zorder=5, label=f"{name}: {onset['stress'] / 1e6:.1f} MPa "

@@ -187,14 +187,19 @@ CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& op
   found.energy_efficiency = most_efficient(binned, knee->position);
   if (!found.modulus) return found;
   const std::optional<Plateau> plateau = find_plateau(binned, knee->position, *found.modulus);
-  if (plateau) found.buckling = meeting(*elastic, plateau->line);
+  if (plateau) {
+    found.plateau_slope = plateau->line.slope;
+    found.buckling = meeting(*elastic, plateau->line);
+  }
   if (!found.buckling) {
     add_remark(found.remark, "No onset of buckling: the curve ends before a plateau.");
     return found;
   }
   if (const std::optional<Line> dense =
-          plateau->end ? densification_line(binned, *plateau->end) : std::nullopt)
+          plateau->end ? densification_line(binned, *plateau->end) : std::nullopt) {
+    found.densification_slope = dense->slope;
     found.densification = meeting(*dense, plateau->line);
+  }
   if (!found.densification)
     add_remark(found.remark,
                "No onset of densification: the curve ends below four times the plateau's stress.");

@@ -27,6 +27,8 @@ void describe(const CompressionProperties& properties, output::Summary& section)
   section.set("elastic_intercept", properties.elastic_intercept);
   describe_point(properties.buckling, "buckling", section);
   describe_point(properties.densification, "densification", section);
+  section.set("plateau_slope", properties.plateau_slope);
+  section.set("densification_slope", properties.densification_slope);
   describe_point(properties.energy_efficiency, "energy_efficiency", section);
   section.set("remark", properties.remark);
 }

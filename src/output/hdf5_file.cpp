@@ -1,7 +1,7 @@
 #include <mpm/core/error.hpp>
-#include <mpm/output/agreement.hpp>
 #include <mpm/output/hdf5_file.hpp>
 #include <mpm/output/replace_file.hpp>
+#include <mpm/parallel/session.hpp>
 
 #include <algorithm>
 #include <array>
@@ -226,10 +226,11 @@ void Hdf5File::finish()
 
 void Hdf5File::agree(const std::string& problem) const
 {
-  throw_if_any(comm_, problem.empty()
-                          ? problem
-                          : fmt::format("{}: cannot {} ({}). Check free space and permissions.",
-                                        file_.string(), problem, last_hdf5_message()));
+  mpm::agree(comm_, [&] {
+    if (!problem.empty())
+      throw FileError(fmt::format("{}: cannot {} ({}). Check free space and permissions.",
+                                  file_.string(), problem, last_hdf5_message()));
+  });
 }
 
 }  // namespace mpm::output

@@ -1,8 +1,8 @@
 #include <mpm/core/error.hpp>
-#include <mpm/output/agreement.hpp>
 #include <mpm/output/hdf5_file.hpp>
 #include <mpm/output/replace_file.hpp>
 #include <mpm/output/snapshot.hpp>
+#include <mpm/parallel/session.hpp>
 
 #include <limits>
 #include <numeric>

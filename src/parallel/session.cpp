@@ -126,4 +126,11 @@ void agree(MPI_Comm comm, const std::function<void()>& action)
   }
 }
 
+void on_rank_zero(MPI_Comm comm, const std::function<void()>& action)
+{
+  agree(comm, [&] {
+    if (rank_of(comm) == 0) action();
+  });
+}
+
 }  // namespace mpm

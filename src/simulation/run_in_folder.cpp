@@ -28,15 +28,11 @@ class HistoryWriter final : public Observer<Dim> {
   void start(const HistoryKind& kind) override
   {
     kind_ = kind;
-    agree(comm_, [&] {
-      if (rank_of(comm_) == 0) file_.emplace(folder_ / "history.csv", history_columns(kind));
-    });
+    on_rank_zero(comm_, [&] { file_.emplace(folder_ / "history.csv", history_columns(kind)); });
   }
   void line(const typename Observer<Dim>::State&, const HistoryLine& line) override
   {
-    agree(comm_, [&] {
-      if (file_) file_->append(history_row(line, kind_));
-    });
+    on_rank_zero(comm_, [&] { file_->append(history_row(line, kind_)); });
   }
 
  private:
@@ -180,16 +176,13 @@ template <int Dim>
 RunResult run_in_folder(const Preparation<Dim>& preparation, const std::filesystem::path& folder)
 {
   const MPI_Comm comm = preparation.comm;
-  agree(comm, [&] {
-    if (rank_of(comm) == 0) make_folder(preparation, folder);
-  });
+  on_rank_zero(comm, [&] { make_folder(preparation, folder); });
   HistoryWriter<Dim> history(comm, folder);
   Snapshots<Dim> snapshots(preparation, folder);
   ProgressWriter<Dim> progress(comm);
   const std::array<Observer<Dim>*, 3> observers{&history, &progress, &snapshots};
   const RunResult result = run<Dim>(preparation, observers);
-  agree(comm, [&] {
-    if (rank_of(comm) != 0) return;
+  on_rank_zero(comm, [&] {
     write_summary(preparation, result, folder / "summary.json");
     if (result.properties) print(*result.properties);
     fmt::print(

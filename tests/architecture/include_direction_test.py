@@ -9,7 +9,7 @@ MAY_INCLUDE = {folder: set(others.split()) | {folder} for folder, others in {
     "core": "", "shape": "core", "particles": "core", "grid": "core",
     "materials": "core particles", "transfer": "core shape particles grid materials",
     "conditions": "core particles grid materials transfer", "parallel": PHYSICS, "scene": PHYSICS,
-    "micrograph": "core scene", "output": "core scene", "analysis": "core output",
+    "micrograph": "core scene", "output": "core scene parallel", "analysis": "core output",
     "stepping": PHYSICS + " parallel",
     "simulation": PHYSICS + " parallel stepping scene micrograph output analysis",
     "main.cpp": PHYSICS + " parallel stepping scene micrograph output analysis simulation"}.items()}

@@ -37,7 +37,7 @@ class Repeatability(ProgramTest):
 
     def test_one_sided_block_repeats_itself_where_borders_move_by_themselves(self):
         self.check_repeats("benchmarks/one_sided.yaml", 3, "steps=700", "grid.cells=[100, 100]",
-                           "output.snapshots.times=[0 s, 2 us]", FIELDS)
+                           "output.snapshots={times: [0 s, 2 us]}", FIELDS)
 
 
 if __name__ == "__main__":

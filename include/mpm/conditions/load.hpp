@@ -2,7 +2,7 @@
 /// Forces from outside.
 
 #include <mpm/grid/node_fields.hpp>
-#include <mpm/materials/law.hpp>
+#include <mpm/materials/body.hpp>
 
 #include <limits>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <mpm/materials/law.hpp>
+#include <mpm/materials/body.hpp>
 
 namespace mpm {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// All particles go to the ranks that own their cells, wherever those are.
 
-#include <mpm/materials/law.hpp>
+#include <mpm/materials/body.hpp>
 #include <mpm/parallel/decomposition.hpp>
 
 #include <vector>

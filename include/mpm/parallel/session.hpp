@@ -40,5 +40,7 @@ std::vector<double> joined_over_ranks(MPI_Comm comm, std::span<const double> val
 /// rank that failed. Collective: keeps ranks out of collectives that a failed one never reaches.
 /// `action` itself must not contain collectives that some ranks could miss.
 void agree(MPI_Comm comm, const std::function<void()>& action);
+/// The same for what rank 0 does alone.
+void on_rank_zero(MPI_Comm comm, const std::function<void()>& action);
 
 }  // namespace mpm

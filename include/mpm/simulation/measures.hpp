@@ -2,7 +2,7 @@
 /// Scalars of the whole run at one moment: energies, counts, what passed a wall.
 
 #include <mpm/conditions/rigid_wall.hpp>
-#include <mpm/materials/law.hpp>
+#include <mpm/materials/body.hpp>
 #include <mpm/parallel/session.hpp>
 
 #include <span>

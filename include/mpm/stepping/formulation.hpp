@@ -3,7 +3,7 @@
 /// present configuration (updated_lagrangian.hpp); another may keep them in the reference one.
 
 #include <mpm/core/archive.hpp>
-#include <mpm/materials/law.hpp>
+#include <mpm/materials/body.hpp>
 #include <mpm/parallel/decomposition.hpp>
 #include <mpm/stepping/slots.hpp>
 

@@ -2,7 +2,7 @@
 /// The passes over the particles of which the update orders are made.
 
 #include <mpm/grid/node_fields.hpp>
-#include <mpm/materials/law.hpp>
+#include <mpm/materials/body.hpp>
 #include <mpm/transfer/schemes.hpp>
 
 #include <functional>
