@@ -9,6 +9,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ inline std::string name_of(const Method& m)
 struct Block {
   IndexVec<2> first_cell, cells;  ///< of the grid
   Vec<2> velocity;                ///< m/s
+  std::optional<YieldConstants> yield{};
 };
 
 /// Everything that all ranks hold of all particles, by id.
@@ -108,7 +110,7 @@ class BlockRun {
     auto transfer = make_transfer<2>(method.shape, method.scheme, 2);
     std::vector<Body<2>> bodies;
     for (const Block& block : blocks) {
-      auto law = make_hencky(PlaneAssumption::strain, {youngs_modulus, 0.3}, density, {});
+      auto law = make_hencky(PlaneAssumption::strain, {youngs_modulus, 0.3}, density, block.yield);
       auto state = law->state_columns();
       bodies.push_back(
           {"block", int(bodies.size()), density, std::move(law),
