@@ -114,9 +114,10 @@ class BlockRun {
       auto state = law->state_columns();
       bodies.push_back(
           {"block", int(bodies.size()), density, std::move(law),
-           ParticleStore(
-               transfer->motion_columns(method.order == UpdateOrderKind::musl), std::move(state),
-               {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume"})});
+           ParticleStore(transfer->motion_columns(method.order == UpdateOrderKind::musl),
+                         std::move(state),
+                         {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume",
+                          "plastic_work"})});
       fill(bodies.back(), block);
     }
     constexpr double volume = 0.25 * cell * cell;
