@@ -2,6 +2,7 @@
 #include <mpm/parallel/migration.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace mpm {
 
@@ -54,7 +55,10 @@ std::optional<LocalIndex> Migration<Dim>::collect(const BodyPart<Dim>& part, std
     if (periodic_ && target != beyond) {
       const IndexVec<Dim> periods = geometry_.periods_of(cell);
       for (int d = 0; d < Dim; ++d)
-        if (periods[d] != 0) particles.motion()(d, p) -= periods[d] * geometry_.period(d);
+        if (periods[d] != 0) {
+          particles.motion()(d, p) -= periods[d] * geometry_.period(d);
+          moved_back_ = true;
+        }
     }
     if (target == home) continue;
     if (target == beyond) {
@@ -98,7 +102,7 @@ typename Migration<Dim>::Outcome Migration<Dim>::finish(std::vector<Body<Dim>>& 
 {
   Outcome outcome;
   gone_.resize(bodies.size());
-  bool changed = false;
+  bool changed = std::exchange(moved_back_, false);  // padding stays with its particle
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     std::ranges::sort(gone_[b]);
     bodies[b].particles.erase(gone_[b]);

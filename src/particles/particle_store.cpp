@@ -64,14 +64,15 @@ void ColumnGroup::archive(Archive& archive, LocalIndex particles)
   if (archive.is_loading()) resize(particles);
   int first = 0;
   for (const Column& column : columns_) {
-    std::vector<double> values;
+    std::vector<double> values(std::size_t(particles) * column.components);
+    std::size_t next = 0;
     if (!archive.is_loading())
       for (LocalIndex p = 0; p < particles; ++p)
-        for (int c = 0; c < column.components; ++c) values.push_back((*this)(first + c, p));
-    archive.list(column.name, values);
+        for (int c = 0; c < column.components; ++c) values[next++] = (*this)(first + c, p);
+    archive.values(column.name, values);
     if (archive.is_loading())
-      for (LocalIndex p = 0, k = 0; p < particles; ++p)
-        for (int c = 0; c < column.components; ++c) (*this)(first + c, p) = values[k++];
+      for (LocalIndex p = 0; p < particles; ++p)
+        for (int c = 0; c < column.components; ++c) (*this)(first + c, p) = values[next++];
     first += column.components;
   }
 }

@@ -17,6 +17,46 @@ namespace {
 /// Steps between two readings of the load cell's mean stress.
 constexpr GlobalIndex steps_between_readings = 5;
 
+/// Everything that a line holds.
+template <class T>
+struct Member {
+  const char* name;
+  T HistoryLine::*member;
+};
+constexpr Member<double> measured[] = {{"time", &HistoryLine::time},
+                                       {"strain", &HistoryLine::strain},
+                                       {"piston_stress", &HistoryLine::piston_stress},
+                                       {"edge_stress", &HistoryLine::edge_stress},
+                                       {"load_cell_stress", &HistoryLine::load_cell_stress},
+                                       {"kinetic_energy", &HistoryLine::kinetic_energy},
+                                       {"elastic_energy", &HistoryLine::elastic_energy},
+                                       {"plastic_work", &HistoryLine::plastic_work},
+                                       {"external_work", &HistoryLine::external_work},
+                                       {"energy_error", &HistoryLine::energy_error},
+                                       {"momentum_error", &HistoryLine::momentum_error},
+                                       {"time_step", &HistoryLine::time_step}};
+constexpr Member<GlobalIndex> counted[] = {{"particles", &HistoryLine::particles},
+                                           {"behind_piston", &HistoryLine::behind_piston},
+                                           {"outside_walls", &HistoryLine::outside_walls}};
+
+void archive_lines(Archive& archive, std::vector<HistoryLine>& lines)
+{
+  const Archive::Section section(archive, "lines");
+  GlobalIndex count = GlobalIndex(lines.size());
+  archive.value("count", count);
+  lines.resize(std::size_t(count));
+  const auto columns = [&]<class T>(const Member<T>* members, std::size_t size) {
+    for (const auto& [name, member] : std::span(members, size)) {
+      std::vector<T> column;
+      for (const HistoryLine& line : lines) column.push_back(line.*member);
+      archive.values(name, column);
+      for (std::size_t k = 0; k < lines.size(); ++k) lines[k].*member = column[k];
+    }
+  };
+  columns(measured, std::size(measured));
+  columns(counted, std::size(counted));
+}
+
 }  // namespace
 
 std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind)
@@ -220,6 +260,13 @@ void History<Dim>::archive(Archive& archive)
   archive.value("load_cell_mass_stress", load_cell_.mass_stress);
   archive.value("load_cell_mass", load_cell_.mass);
   archive.value("deepest_behind_piston", deepest_behind_piston_);
+  int line_is_due = stress_work_before_.has_value();
+  archive.value("line_is_due", line_is_due);
+  double stress_work = stress_work_before_.value_or(0);
+  archive.value("stress_work_before", stress_work);
+  stress_work_before_.reset();
+  if (line_is_due != 0) stress_work_before_ = stress_work;
+  archive_lines(archive, lines_);
   const Archive::Section section(archive, "start");
   archive.value("particles", start_.particles);
   archive.value("id_sum", start_.id_sum);

@@ -209,20 +209,55 @@ void Exchange<Dim>::sort_body(std::size_t number, ParticleStore& particles)
   particles.seal();
 }
 
+/// Local numbers mean something on the part of the grid only on which they were saved.
+template <int Dim>
+void Exchange<Dim>::archive_part(Archive& archive) const
+{
+  const IndexBox<Dim>& local = topology_.local();
+  std::vector<std::int64_t> part{decomposition_.rank(), decomposition_.ranks(),
+                                 GlobalIndex(halo_.shared_nodes().size()), halo_.sent_nodes()};
+  part.insert(part.end(), local.lower.data(), local.lower.data() + Dim);
+  part.insert(part.end(), local.upper.data(), local.upper.data() + Dim);
+  const std::vector<std::int64_t> here = part;
+  archive.values("part", part);
+  if (part != here)
+    throw InputError(
+        "saved state: it belongs to another part of the grid. Load it on as many ranks as it was "
+        "saved on, with the same borders between them.");
+}
+
+/// A loss that the ranks have not yet agreed on.
+template <int Dim>
+void Exchange<Dim>::archive_loss(Archive& archive)
+{
+  const Archive::Section section(archive, "loss");
+  int lost = loss_.has_value();
+  archive.value("lost", lost);
+  if (lost == 0) return loss_.reset();
+  Loss loss = loss_.value_or(Loss{});
+  archive.value("id", loss.particle.id);
+  archive.values("position", {loss.particle.position.data(), std::size_t(Dim)});
+  archive.values("velocity", {loss.particle.velocity.data(), std::size_t(Dim)});
+  archive.text("body", loss.body);
+  archive.value("step", loss.moment.step);
+  archive.value("time", loss.moment.time);
+  loss_ = loss;
+}
+
 template <int Dim>
 void Exchange<Dim>::archive(Archive& archive)
 {
-  archive.value("migrated", migrated_);
+  archive_part(archive);
   archive.value("largest_speed", largest_speed_);
   archive.value("moved_since_sort", moved_since_sort_);
   archive.value("moved_last", moved_last_);
   archive.value("moves_since_sort", moves_since_sort_);
-  std::vector<std::int64_t> orders;
-  for (const Order& order : orders_) orders.insert(orders.end(), {order.near_end, order.rest});
-  archive.list("orders", orders);
-  orders_.clear();
-  for (std::size_t k = 0; k < orders.size(); k += 2)
-    orders_.push_back({LocalIndex(orders[k]), LocalIndex(orders[k + 1])});
+  archive_loss(archive);
+  for (std::size_t b = 0; b < orders_.size(); ++b) {
+    const Archive::Section section(archive, "order" + std::to_string(b));
+    archive.value("near_end", orders_[b].near_end);
+    archive.value("rest", orders_[b].rest);
+  }
   std::vector<std::int64_t> touched;
   for (LocalIndex node = 0; node < topology_.size(); ++node)
     if (topology_.is_touched(node)) touched.push_back(node);

@@ -74,14 +74,17 @@ GlobalIndex UpdatedLagrangian<Dim>::repartition(const Ownership<Dim>& ownership)
 }
 
 template <int Dim>
+Counters UpdatedLagrangian<Dim>::counters_of_exchange() const
+{
+  return {exchange_->migrated(), exchange_->messages(), exchange_->bytes_sent(),
+          exchange_->waiting_seconds()};
+}
+
+template <int Dim>
 Counters UpdatedLagrangian<Dim>::counters() const
 {
   Counters sum = counters_;
-  sum.migrated += exchange_->migrated();
-  sum.messages += exchange_->messages();
-  sum.bytes += exchange_->bytes_sent();
-  sum.waiting_seconds += exchange_->waiting_seconds();
-  return sum;
+  return sum += counters_of_exchange();
 }
 
 template <int Dim>
@@ -105,7 +108,10 @@ void UpdatedLagrangian<Dim>::archive(Archive& archive)
   }
   {
     const Archive::Section section(archive, "counters");
-    counters_.archive(archive);
+    // The whole count, of which this exchange's own, in another run, is another share.
+    Counters all = counters();
+    all.archive(archive);
+    if (archive.is_loading()) counters_ = all -= counters_of_exchange();
   }
   for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
     const Archive::Section section(archive, "body" + std::to_string(b));

@@ -63,6 +63,24 @@ void Agreed::archive(Archive& archive)
   archive.value("mean_particles", mean_particles);
 }
 
+Counters& Counters::operator+=(const Counters& other)
+{
+  migrated += other.migrated;
+  messages += other.messages;
+  bytes += other.bytes;
+  waiting_seconds += other.waiting_seconds;
+  return *this;
+}
+
+Counters& Counters::operator-=(const Counters& other)
+{
+  migrated -= other.migrated;
+  messages -= other.messages;
+  bytes -= other.bytes;
+  waiting_seconds -= other.waiting_seconds;
+  return *this;
+}
+
 void Counters::archive(Archive& archive)
 {
   archive.value("migrated", migrated);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct Block {
   IndexVec<2> first_cell, cells;  ///< of the grid
   Vec<2> velocity;                ///< m/s
   int field = 0;                  ///< velocity field
+  std::optional<YieldConstants> yield{};
 };
 
 /// Everything that all ranks hold of all particles, by id.
@@ -109,13 +111,14 @@ class BlockRun {
     auto transfer = make_transfer<2>(method.shape, method.scheme, 2);
     std::vector<Body<2>> bodies;
     for (const Block& block : blocks) {
-      auto law = make_hencky(PlaneAssumption::strain, {youngs_modulus, 0.3}, density, {});
+      auto law = make_hencky(PlaneAssumption::strain, {youngs_modulus, 0.3}, density, block.yield);
       auto state = law->state_columns();
       bodies.push_back(
           {"block", int(bodies.size()), density, std::move(law),
-           ParticleStore(
-               transfer->motion_columns(method.order == UpdateOrderKind::musl), std::move(state),
-               {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume"})});
+           ParticleStore(transfer->motion_columns(method.order == UpdateOrderKind::musl),
+                         std::move(state),
+                         {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume",
+                          "plastic_work"})});
       bodies.back().field = block.field;
       fill(bodies.back(), block);
     }

@@ -2,6 +2,7 @@
 /// The grid shared out among the ranks of a communicator.
 
 #include <mpm/parallel/ownership.hpp>
+#include <mpm/parallel/petsc_handles.hpp>
 #include <mpm/parallel/weighted_cuts.hpp>
 
 #include <memory>
@@ -10,6 +11,7 @@
 
 namespace mpm {
 
+/// Copies share the DMDA.
 template <int Dim>
 class Decomposition {
  public:
@@ -32,9 +34,17 @@ class Decomposition {
   IndexBox<Dim> local(int rank, int support) const { return ownership_.local(rank, support); }
   int owner_of_cell(const IndexVec<Dim>& cell) const { return ownership_.owner_of_cell(cell); }
 
+  /// The DMDA of cuts, with one unknown per node and no ghosts; null for blocks.
+  _p_DM* dmda() const { return dmda_.get(); }
+  /// Numbers in the whole run of the nodes that this rank owns, in the order of their local
+  /// numbers: of cuts the DMDA's, of blocks its own. Both give each rank a range, in the order of
+  /// the ranks. Collective.
+  std::vector<GlobalIndex> numbers_of_owned() const;
+
  private:
   MPI_Comm comm_;
   int rank_;
+  GridHandle dmda_;
   Ownership<Dim> ownership_;
 };
 

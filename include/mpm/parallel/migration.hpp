@@ -50,6 +50,7 @@ class Migration {
   std::vector<int> target_;      ///< per cell of `local_`: home, place in `neighbours_`, or beyond
   std::vector<Packet> packets_;  ///< per neighbour
   std::vector<std::vector<LocalIndex>> gone_;  ///< per body
+  bool moved_back_ = false;                    ///< any particle, since the last `finish`
   std::vector<std::vector<double>> buffers_;
   std::vector<LocalIndex> notes_;
   std::vector<MPI_Request> sends_;

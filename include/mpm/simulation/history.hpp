@@ -61,6 +61,7 @@ class History {
 
   const std::vector<HistoryLine>& lines() const { return lines_; }
   double deepest_behind_piston() const { return deepest_behind_piston_; }  ///< m, whole run
+  /// All lines, and what the next ones count from.
   void archive(Archive& archive);
 
  private:

@@ -61,6 +61,7 @@ class Exchange {
   GlobalIndex bytes_sent() const { return halo_.traffic().bytes + migration_.bytes(); }
   double waiting_seconds() const { return halo_.traffic().waiting_seconds; }
 
+  /// All but the counts. Throws InputError, loading, on another part of the grid.
   void archive(Archive& archive);
 
  private:
@@ -79,6 +80,8 @@ class Exchange {
   void exchange_leavers(Bodies& bodies);
   void note_loss(const Body<Dim>& body, const LostParticle<Dim>& lost, const Moment& moment);
   void sort_body(std::size_t number, ParticleStore& particles);
+  void archive_part(Archive& archive) const;
+  void archive_loss(Archive& archive);
 
   Decomposition<Dim> decomposition_;
   const Transfer<Dim>& transfer_;

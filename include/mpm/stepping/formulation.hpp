@@ -32,6 +32,8 @@ struct Counters {
   GlobalIndex migrated = 0;  ///< particles that left in a step
   GlobalIndex messages = 0, bytes = 0;
   double waiting_seconds = 0;
+  Counters& operator+=(const Counters& other);
+  Counters& operator-=(const Counters& other);
   void archive(Archive& archive);
 };
 

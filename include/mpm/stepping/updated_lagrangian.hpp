@@ -54,6 +54,7 @@ class UpdatedLagrangian final : public Formulation<Dim> {
   void sort_and_activate();
   Step<Dim> next_step();
   double own_work() const;
+  Counters counters_of_exchange() const;
   [[noreturn]] void stop(GlobalIndex first_loss);
 
   Setup setup_;
@@ -63,7 +64,7 @@ class UpdatedLagrangian final : public Formulation<Dim> {
   GlobalIndex steps_ = 0;
   Agreed agreed_;
   GlobalIndex checked_ = 0;  ///< step of the last check
-  Counters counters_;        ///< without those of the present exchange
+  Counters counters_;        ///< without those of the present exchange; may be negative
 };
 
 }  // namespace mpm

@@ -1,3 +1,5 @@
+#include <mpm/core/error.hpp>
+#include <mpm/core/memory_archive.hpp>
 #include <mpm/particles/particle_store.hpp>
 
 #include <algorithm>
@@ -197,6 +199,54 @@ TEST(ParticleStore, ReservedForItsParticlesTakesTheMemoryOfItsColumnsOnly)
       std::size_t(store.blocks()) * lane_count * (motion_width + state_width) * sizeof(double);
   EXPECT_EQ(store.bytes(), columns + count * sizeof(GlobalIndex));
   EXPECT_EQ(read(store), model);
+}
+
+TEST(ParticleStore, ComesBackFromAnArchiveInItsOrderWithSealedPadding)
+{
+  for (const int count : {0, 1, lane_count, 2 * lane_count + 3}) {
+    ParticleStore store = empty_store(), other = empty_store();
+    Model model, others;
+    GlobalIndex next_id = 5;
+    add_particles(store, model, count, next_id);
+    if (count > 1) store.erase(std::vector<LocalIndex>{0});  // ids are no longer in order
+    store.seal();
+    add_particles(other, others, lane_count + 1, next_id);
+
+    MemoryArchive archive;
+    archive.start_saving();
+    store.archive(archive);
+    archive.start_loading();
+    other.archive(archive);
+    EXPECT_THAT(archive.unread(), ::testing::IsEmpty());
+    EXPECT_THAT(other.ids(), ::testing::ElementsAreArray(store.ids()));
+    EXPECT_EQ(read(other), read(store));
+    expect_padding_without_mass_beside_a_real_particle(other);
+  }
+}
+
+TEST(ParticleStore, RefusesAnArchiveWithOtherColumns)
+{
+  ParticleStore store = empty_store();
+  Model model;
+  GlobalIndex next_id = 0;
+  add_particles(store, model, 3, next_id);
+  MemoryArchive archive;
+  archive.start_saving();
+  store.archive(archive);
+  archive.start_loading();
+  const auto words_of = [&](ParticleStore other) -> std::string {
+    try {
+      other.archive(archive);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "loaded";
+  };
+  const std::vector<Column> state{{"initial_volume", 1, "m3"}, {"stress", 3, "Pa"}};
+  EXPECT_THAT(words_of({{{"position", 3, "m"}}, state, {}}),
+              ::testing::HasSubstr("motion/position has 6 values, not 9"));
+  EXPECT_THAT(words_of({{{"position", 2, "m"}, {"affine_velocity", 4, "1/s"}}, state, {}}),
+              ::testing::HasSubstr("motion/affine_velocity is not there"));
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+#pragma once
+/// State kept in memory: to go back to, to compare, or on its way to a file.
+
+#include <mpm/core/archive.hpp>
+
+#include <functional>
+#include <map>
+#include <variant>
+
+namespace mpm {
+
+/// Owners of state save themselves into it, and load themselves from it as often as wanted. Names
+/// of sections and values are joined by strokes: `body0/motion/velocity`.
+///
+/// Whoever met with an error while loading is half loaded and of no more use.
+class MemoryArchive final : public Archive {
+ public:
+  /// Forgets what is there; what is named from now on is saved.
+  void start_saving();
+  /// What is named from now on is loaded.
+  void start_loading();
+
+  bool is_loading() const override { return loading_; }
+  void values(std::string_view name, std::span<double> values) override;
+  void values(std::string_view name, std::span<std::int64_t> values) override;
+  void list(std::string_view name, std::vector<double>& list) override;
+  void list(std::string_view name, std::vector<std::int64_t>& list) override;
+  void text(std::string_view name, std::string& text) override;
+
+  /// What nobody has asked for since `start_loading`, in alphabetical order.
+  std::vector<std::string> unread() const;
+  /// What only one of the two has, or what is not the same to the last bit, in alphabetical order.
+  friend std::vector<std::string> differences(const MemoryArchive& a, const MemoryArchive& b);
+
+ private:
+  using Value = std::variant<std::vector<double>, std::vector<std::int64_t>, std::string>;
+  struct Entry {
+    Value value;
+    bool read = false;
+  };
+
+  void enter(std::string_view name) override;
+  void leave() override;
+  std::string full(std::string_view name) const;
+  template <class T>
+  void save(std::string_view name, T value);
+  template <class T>
+  const T& load(std::string_view name);
+  template <class T>
+  void fixed(std::string_view name, std::span<T> values);
+  template <class T>
+  void whole(std::string_view name, T& value);
+
+  std::map<std::string, Entry, std::less<>> entries_;
+  std::vector<std::string> sections_;  ///< those that are open
+  bool loading_ = false;
+};
+
+}  // namespace mpm
