@@ -5,6 +5,7 @@ find_package(MPI 3.0 REQUIRED COMPONENTS C CXX)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc>=3.15)
 pkg_check_modules(UDUNITS REQUIRED IMPORTED_TARGET udunits)
+pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 
 # With serial HDF5 also installed FindHDF5 would take that one, and fail only at run time.
 set(HDF5_PREFER_PARALLEL TRUE)

@@ -11,6 +11,15 @@ Loads<Dim>::Loads(std::vector<std::unique_ptr<Load<Dim>>> loads) : loads_(std::m
 }
 
 template <int Dim>
+std::vector<SurfaceMark<Dim>> Loads<Dim>::marks() const
+{
+  std::vector<SurfaceMark<Dim>> marks;
+  for (const auto& load : loads_)
+    if (auto mark = load->mark()) marks.push_back(*std::move(mark));
+  return marks;
+}
+
+template <int Dim>
 void Loads<Dim>::scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfer,
                          const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time) const
 {

@@ -5,7 +5,7 @@
 namespace mpm {
 
 template <int Dim>
-RigidWall<Dim>::RigidWall(const Placement& placement, const WallMotion& motion, WallGrip grip,
+RigidWall<Dim>::RigidWall(const WallPlacement& placement, const WallMotion& motion, WallGrip grip,
                           ReactionBook book)
     : BoundaryCondition<Dim>(book), placement_(placement), motion_(motion), grip_(grip)
 {

@@ -1,3 +1,4 @@
+#include <mpm/conditions/smooth_start.hpp>
 #include <mpm/conditions/wall_motion.hpp>
 
 #include <algorithm>
@@ -33,9 +34,7 @@ double WallMotion::velocity(double time) const
     if (after == table.end()) return a.velocity;
     return a.velocity + (after->velocity - a.velocity) * (time - a.time) / (after->time - a.time);
   }
-  if (time >= ramp_time) return speed;
-  const double s = std::max(0.0, time / ramp_time);
-  return speed * s * s * (3 - 2 * s);
+  return smooth_start(speed, time, ramp_time);
 }
 
 double WallMotion::displacement(double time) const

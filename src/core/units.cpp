@@ -33,12 +33,15 @@ const QuantityRow& row(Quantity quantity)
       {velocity, "a velocity", "m/s", "10 m/s", {"m/s", "mm/s", "km/s"}, 1},
       {pressure, "a pressure", "Pa", "10.6 GPa", {"MPa", "GPa", "kPa", "Pa", "N/mm^2"}, 4},
       {density, "a density", "kg/m^3", "1500 kg/m^3", {"kg/m^3", "g/cm^3"}, 1},
-      {angle, "an angle", "rad", "30 deg", {"deg", "rad", "degree", "radian", "°"}, 1}};
+      {angle, "an angle", "rad", "30 deg", {"deg", "rad", "degree", "radian", "°"}, 1},
+      {acceleration, "an acceleration", "m/s^2", "9.81 m/s^2", {"m/s^2", "mm/us^2"}, 1},
+      {rate, "a rate", "1/s", "1000 1/s", {"1/s", "1/ms", "1/us"}, 1}};
   return rows[static_cast<std::size_t>(quantity)];
 }
 
-constexpr std::array dimensional{Quantity::length,   Quantity::time,    Quantity::velocity,
-                                 Quantity::pressure, Quantity::density, Quantity::angle};
+constexpr std::array dimensional{Quantity::length,   Quantity::time,        Quantity::velocity,
+                                 Quantity::pressure, Quantity::density,     Quantity::angle,
+                                 Quantity::rate,     Quantity::acceleration};
 
 std::string_view trimmed(std::string_view text)
 {
@@ -56,9 +59,10 @@ UnitHandle parse(ut_system* system, const std::string& name)
 }
 
 /// A unit text with a number of its own (`10 MPa`, `MPa 3`) would silently multiply the value;
-/// digits are exponents (`m3`, `m^-3`, `s-1`) or refused.
+/// digits are exponents (`m3`, `m^-3`, `s-1`) or refused, but for a one over a unit (`1/s`).
 bool has_factor(std::string_view unit)
 {
+  if (unit.starts_with("1/")) unit.remove_prefix(2);
   char before = ' ';
   for (const char c : unit) {
     const bool digit = c >= '0' && c <= '9';

@@ -6,7 +6,7 @@
 
 namespace mpm {
 
-inline LawParameter density_parameter()
+inline KindParameter density_parameter()
 {
   return {.key = "density",
           .help = "mass per volume of the solid",
@@ -15,7 +15,7 @@ inline LawParameter density_parameter()
           .example = 1500};
 }
 
-inline LawParameter youngs_modulus_parameter()
+inline KindParameter youngs_modulus_parameter()
 {
   return {.key = "youngs_modulus",
           .help = "Young's modulus; across the unique axis if transversely isotropic",
@@ -24,7 +24,7 @@ inline LawParameter youngs_modulus_parameter()
           .example = 10.6e9};
 }
 
-inline LawParameter poisson_ratio_parameter()
+inline KindParameter poisson_ratio_parameter()
 {
   return {.key = "poisson_ratio",
           .help = "Poisson's ratio",
@@ -32,7 +32,7 @@ inline LawParameter poisson_ratio_parameter()
           .example = 0.33};
 }
 
-inline LawParameter strain_measure_parameter()
+inline KindParameter strain_measure_parameter()
 {
   return {.key = "strain_measure",
           .help = "logarithmic (Hencky) strain, or a rate of small strain with rotation",

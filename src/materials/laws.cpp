@@ -22,14 +22,7 @@ std::span<const LawRow> list_of<LawRow>()
 
 bool LawRow::has(std::string_view key) const
 {
-  return std::ranges::find(parameters, key, &LawParameter::key) != parameters.end();
-}
-
-void fill_defaults(const LawRow& law, ParameterValues& values)
-{
-  for (const LawParameter& parameter : law.parameters)
-    if (const auto value = parameter.default_value(); value && !values.has(parameter.key))
-      values.set(parameter.key, *value);
+  return std::ranges::find(parameters, key, &KindParameter::key) != parameters.end();
 }
 
 template <int Dim>

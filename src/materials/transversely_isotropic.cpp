@@ -70,7 +70,7 @@ LawRow transversely_isotropic_law()
                           .quantity = Quantity::angle,
                           .fallback = 0.0,
                           .example = 0.5,
-                          .only = LawParameter::Only{"unique_axis", "in_plane"}}},
+                          .only = KindParameter::Only{"unique_axis", "in_plane"}}},
           .in_plane = make,
           .check = check};
 }

@@ -69,6 +69,7 @@ Specimen<Dim>::Specimen(const scene::Scene& scene, std::optional<Picture> pictur
       settle_picture(scene, *std::move(picture), share);
     else
       settle_shapes(scene, share);
+    if (specimen.initial_velocity) settle_speeds(scene, share);
   } catch (const InputError& error) {
     throw_in_scene(scene, error.what());
   }
@@ -140,6 +141,42 @@ void Specimen<Dim>::settle_shapes(const scene::Scene& scene, const Share& share)
     throw InputError("no location is filled: specimen.shapes cut out all they fill. Change them.");
   densities_ = densities_of(scene, counts, material_of_shape);
   source_ = std::move(source);
+}
+
+template <int Dim>
+void Specimen<Dim>::settle_speeds(const scene::Scene& scene, const Share& share)
+{
+  constexpr GlobalIndex chunk_locations = 1 << 20;  // held at a time
+  double largest = 0;
+  for_each_chunk(
+      slab(whole(), share.part, share.parts), chunk_locations, [&](const IndexBox<Dim>& chunk) {
+        const Lattice<Dim> held = lattice(chunk);
+        std::size_t place = 0;
+        for_each_index(chunk, [&](const IndexVec<Dim>& at) {
+          const std::int8_t material = held.material[place++];
+          if (material == held.empty || !scene.materials[std::size_t(material)].law->deformable())
+            return;
+          std::array<double, Dim> position;
+          for (int d = 0; d < Dim; ++d)
+            position[std::size_t(d)] = centre(at[d], count_[d]) * size_[d];
+          for (int d = 0; d < Dim; ++d) {
+            const auto& formula = (*scene.specimen.initial_velocity)[std::size_t(d)];
+            const double speed = std::abs(formula(position, 0));
+            // What is no number stays.
+            if (!std::isnan(largest) && !(speed <= largest)) largest = speed;
+          }
+        });
+      });
+  // One entry per part: there is a sum over the parts, and no maximum.
+  std::vector<double> of_parts(std::size_t(share.parts));
+  of_parts[std::size_t(share.part)] = largest;
+  share.sum(of_parts);
+  largest_initial_speed_ = *std::ranges::max_element(of_parts);
+  for (const double speed : of_parts)
+    if (!std::isfinite(speed))
+      throw InputError(
+          "specimen.initial_velocity is no finite number at some particle. Give formulas that are "
+          "one everywhere in the specimen.");
 }
 
 template <int Dim>

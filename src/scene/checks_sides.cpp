@@ -9,8 +9,8 @@ namespace {
 void check_pair(const Checked& checked, const std::string& path, std::size_t first, Lateral lower,
                 Lateral upper, int axis)
 {
-  const bool periodic = lower == Lateral::periodic;
-  if (periodic != (upper == Lateral::periodic))
+  const bool periodic = lower->periodic;
+  if (periodic != upper->periodic)
     checked.refuse(
         path, fmt::format("along {} one side is periodic and the other is not", "xyz"[axis]),
         fmt::format("Make entries {} and {} both periodic, or neither", first + 1, first + 2));
@@ -22,6 +22,24 @@ void check_pair(const Checked& checked, const std::string& path, std::size_t fir
                                "through the other at once",
                                "xyz"[axis]),
                    "Leave no margin there");
+}
+
+/// Each side moves once at most, and is free otherwise.
+void check_moving_sides(const Checked& checked, const FreeMotion& motion)
+{
+  for (std::size_t i = 0; i < motion.moving_sides.size(); ++i) {
+    const Side side = motion.moving_sides[i].side;
+    const std::string path = fmt::format("free_motion.moving_sides[{}]", i);
+    const std::string key = path + ".side";
+    if (!checked.sound(path)) continue;
+    if (axis_of(side) >= checked.scene.dimensions)
+      checked.refuse(key, "the scene lies in the plane", "Use left, right, bottom or top");
+    else if (const SideRow& fixed = *motion.sides[std::size_t(side)]; !fixed.open())
+      checked.refuse(key, "free_motion.sides makes it " + fixed.keyword, "Make it free there");
+    for (std::size_t j = 0; j < i; ++j)
+      if (motion.moving_sides[j].side == side)
+        checked.refuse(key, fmt::format("moving_sides[{}] is the same side", j), "Remove one");
+  }
 }
 
 }  // namespace
@@ -42,7 +60,9 @@ void check_sides(const Checked& checked)
         first += 2;
       }
   } else if (checked.sound("free_motion.sides")) {
-    const auto& sides = std::get<FreeMotion>(checked.scene.motion).sides;
+    const auto& motion = std::get<FreeMotion>(checked.scene.motion);
+    const auto& sides = motion.sides;
+    check_moving_sides(checked, motion);
     for (int axis = 0; axis < dimensions; ++axis) {
       const auto at = std::size_t(2 * axis);
       check_pair(checked, "free_motion.sides", at, sides[at], sides[at + 1], axis);

@@ -98,6 +98,8 @@ void check_shapes(const Checked& checked)
     else if (!kinds.empty())
       checked.both_given(path + "." + kinds[1], path + "." + kinds[0]);
     check_name(checked, path + ".material", specimen.shapes[i].material, {"void"});
+    if (std::ranges::any_of(specimen.shapes[i].velocity, [](double c) { return c != 0; }))
+      checked.both_given(path + ".velocity", "specimen.initial_velocity");
   }
 }
 

@@ -84,7 +84,11 @@ void write_input_reference(std::ostream& out)
   write_words<ShapeRow>(out, "shape_function");
   write_words<SchemeRow>(out, "scheme");
   write_words<UpdateOrderRow>(out, "update_order");
-  write_sections<Loading, LoadCell, FreeMotion, OutputKeys>(out);
+  write_sections<Loading, LoadCell, FreeMotion>(out);
+  write_words<SideRow>(out, "sides");
+  write_sections<MovingSide, Load>(out);
+  write_words<LoadRow>(out, "kind");
+  write_sections<OutputKeys>(out);
   write_section<SnapshotKeys>(out, snapshots_section);
 }
 

@@ -92,6 +92,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   check_materials(checked);
   check_specimen(checked);
   check_sides(checked);
+  check_loads(checked);
   check_run(checked);
   problems.throw_if_any();
 
@@ -100,6 +101,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   if (scene.name.empty()) scene.name = file.stem().string();
   if (scene.materials.empty()) scene.materials = {cell_wall()};
   for (Material& material : scene.materials) fill_defaults(*material.law, material.values);
+  for (Load& load : scene.loads) fill_defaults(*load.kind, load.values);
   for (Shape& shape : scene.specimen.shapes)
     if (shape.material.empty()) shape.material = scene.materials.front().name;
   scene.output = filled_output(keys.output_keys, scene.motion);

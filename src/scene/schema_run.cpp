@@ -105,6 +105,22 @@ const std::vector<Parameter<FreeMotion>>& parameters<FreeMotion>()
                 "end of the run"),
       member<F>("sides", &F::sides, {.spread = true},
                 "of the grid: left, right, bottom, top; in space also back, front"),
+      member<F>("moving_sides", &F::moving_sides, {.default_text = "none"},
+                "rigid walls at sides that follow a table"),
+  };
+  return rows;
+}
+
+template <>
+const std::vector<Parameter<MovingSide>>& parameters<MovingSide>()
+{
+  using M = MovingSide;
+  static const std::vector<Parameter<M>> rows{
+      member<M>("side", &M::side, {.need = Need::required}, "where the wall stands at the start"),
+      member<M>("grip", &M::grip, {}, "whether it holds what it touches along its face"),
+      member<M>("table", &M::table, {.quantity = Quantity::velocity, .need = Need::required},
+                "times and velocities along the side's axis, straight lines between them, constant "
+                "before and after"),
   };
   return rows;
 }

@@ -47,7 +47,10 @@ const std::vector<Parameter<SceneKeys>>& parameters<SceneKeys>()
       member<S>("grid", &S::grid, {.default_text = "see there"}, "background grid"),
       member<S>("numerics", &S::numerics, {.default_text = "see there"}, "the method"),
       motion<Loading>("loading", "compression by a piston; this or free_motion is needed"),
-      motion<FreeMotion>("free_motion", "motion from the initial velocities, without a piston"),
+      motion<FreeMotion>(
+          "free_motion",
+          "motion from initial velocities, loads and moving sides, without a piston"),
+      member<S>("loads", &S::loads, {.default_text = "none"}, "forces from outside"),
       member<S>("steps", &S::steps, {.bound = at_least(1), .default_text = "until the end"},
                 "end after this many time steps"),
       member<S>("output", &S::output_keys, {.default_text = "see there"}, "what is written"),

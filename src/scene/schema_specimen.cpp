@@ -191,6 +191,9 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
       member<S>("shapes", &S::shapes, {.default_text = "none"},
                 "drawn in order; later ones override earlier ones")
           .when(from_shapes),
+      member<S>("initial_velocity", &S::initial_velocity,
+                {.quantity = Quantity::velocity, .default_text = "the shapes' own"},
+                "of all that can be deformed, by the place at t = 0"),
       member<S>("windows", &S::windows, {.default_text = "none"},
                 "parts whose relative density is reported"),
   };

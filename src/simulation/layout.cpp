@@ -27,8 +27,9 @@ const scene::Loading* loading_of(const scene::Scene& scene)
 double margin_of(const scene::Scene& scene, int axis, bool upper, double size)
 {
   const double margin = scene.grid.margin[std::size_t(2 * axis + upper)];
-  const bool lateral = loading_of(scene) && side_of(scene, axis, upper) == scene::Lateral::free;
-  return lateral && margin == 0 ? free_margin * size : margin;
+  const auto side = side_of(scene, axis, upper);
+  const bool open = loading_of(scene) && side && (*side)->open();
+  return open && margin == 0 ? free_margin * size : margin;
 }
 
 template <int Dim>
@@ -40,7 +41,8 @@ void lay_grid(const scene::Scene& scene, const micrograph::Specimen<Dim>& specim
     const double size = specimen.size()[d], h = size / specimen.cells()[d];
     layout.geometry.spacing[d] = h;
     layout.location_size[d] = h / layout.per_cell;
-    layout.geometry.periodic[d] = side_of(scene, d, false) == scene::Lateral::periodic;
+    const auto side = side_of(scene, d, false);
+    layout.geometry.periodic[d] = side && (*side)->periodic;
     const auto cells = [&](bool upper) -> LocalIndex {
       if (layout.geometry.periodic[d]) return 0;
       return ghost_cells + LocalIndex(std::ceil(margin_of(scene, d, upper, size) / h - 1e-9));
@@ -84,8 +86,8 @@ void measure_materials(const scene::Scene& scene, const micrograph::Specimen<Dim
       deformable(material);
       continue;
     }
-    for (const double component : material.values.vector("velocity"))
-      layout.largest_speed = std::max(layout.largest_speed, std::abs(component));
+    for (const WallMotion& motion : motion_of<Dim>(material))
+      layout.largest_speed = std::max(layout.largest_speed, motion.largest_speed());
   }
   if (layout.load_cell) deformable(load_cell_material(scene, layout.load_cell->density_ratio));
 }
@@ -100,6 +102,18 @@ std::optional<scene::Lateral> side_of(const scene::Scene& scene, int axis, bool 
   const int piston = axis_of(loading->piston);
   if (axis == piston) return std::nullopt;
   return loading->lateral[std::size_t(2 * (axis - (axis > piston)) + upper)];
+}
+
+template <int Dim>
+std::array<WallMotion, Dim> motion_of(const scene::Material& rigid)
+{
+  std::array<WallMotion, Dim> motion;
+  for (int d = 0; d < Dim; ++d) {
+    motion[d].speed = rigid.values.vector("velocity")[std::size_t(d)];
+    for (const TimeTable::Row& row : rigid.values.table("velocity_table").rows)
+      motion[d].table.push_back({row.time, row.values[std::size_t(d)]});
+  }
+  return motion;
 }
 
 scene::Material load_cell_material(const scene::Scene& scene, double ratio)
@@ -139,11 +153,17 @@ Layout<Dim> make_layout(const scene::Scene& scene, const micrograph::Specimen<Di
     layout.piston = {loading->speed, loading->ramp_time.value_or(crossings_of_start * crossing)};
     layout.end_time = time_of_strain(layout.piston, length, loading->strain);
   } else {
-    layout.end_time = std::get<scene::FreeMotion>(scene.motion).end_time;
+    const auto& free = std::get<scene::FreeMotion>(scene.motion);
+    layout.end_time = free.end_time;
+    for (const scene::MovingSide& side : free.moving_sides)
+      layout.largest_speed =
+          std::max(layout.largest_speed, WallMotion{.table = side.table}.largest_speed());
   }
   return layout;
 }
 
+template std::array<WallMotion, 2> motion_of<2>(const scene::Material&);
+template std::array<WallMotion, 3> motion_of<3>(const scene::Material&);
 template Layout<2> make_layout(const scene::Scene&, const micrograph::Specimen<2>&);
 template Layout<3> make_layout(const scene::Scene&, const micrograph::Specimen<3>&);
 

@@ -1,10 +1,14 @@
 #include <mpm/conditions/rigid_body.hpp>
+#include <mpm/core/error.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
+#include <mpm/simulation/surface_marks.hpp>
 
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace mpm {
 
@@ -33,12 +37,20 @@ class BodyFiller {
     return decomposition_.owner_of_cell(layout_.cell_of_location(at)) == decomposition_.rank();
   }
 
+  std::array<double, Dim> place_of(const IndexVec<Dim>& at) const
+  {
+    std::array<double, Dim> place;
+    for (int d = 0; d < Dim; ++d) place[std::size_t(d)] = (at[d] + 0.5) * layout_.location_size[d];
+    return place;
+  }
+
   void add(const IndexVec<Dim>& at, GlobalIndex id, const scene::PerAxis<double>& velocity)
   {
     const LocalIndex p = body_.particles.add(id);
     ColumnGroup& motion = body_.particles.motion();
+    const std::array<double, Dim> place = place_of(at);
     for (int d = 0; d < Dim; ++d) {
-      motion(position_ + d, p) = (at[d] + 0.5) * layout_.location_size[d];
+      motion(position_ + d, p) = place[std::size_t(d)];
       motion(velocity_ + d, p) = velocity[std::size_t(d)];
     }
     motion(mass_, p) = body_.density * layout_.particle_volume;
@@ -69,7 +81,7 @@ Body<Dim> empty_body(const scene::Material& material, int index, const scene::Sc
                      const typename UpdatedLagrangian<Dim>::Setup& setup)
 {
   auto law = law_of<Dim>(material, scene);
-  ParticleStore particles = empty_store(*setup.transfer, *setup.order, *law);
+  ParticleStore particles = empty_store(*setup.transfer, *setup.order, *law, setup.slots.loads);
   return {material.name, index, material.density(), std::move(law), std::move(particles)};
 }
 
@@ -77,8 +89,16 @@ template <int Dim>
 void fill_body(Body<Dim>& body, const scene::Scene& scene, const Lattice<Dim>& lattice,
                const Layout<Dim>& layout, const Decomposition<Dim>& decomposition)
 {
-  constexpr scene::PerAxis<double> at_rest{};
   BodyFiller<Dim> filler(body, layout, decomposition);
+  const auto velocity_of = [&](const IndexVec<Dim>& at, int shape) {
+    scene::PerAxis<double> velocity{};
+    if (const auto& formulas = scene.specimen.initial_velocity)
+      for (std::size_t d = 0; d < std::size_t(Dim); ++d)
+        velocity[d] = (*formulas)[d](filler.place_of(at), 0);
+    else if (shape >= 0)
+      velocity = scene.specimen.shapes[std::size_t(shape)].velocity;
+    return velocity;
+  };
   const auto visit_home = [&](const auto& visit) {
     std::size_t place = 0;
     for_each_index(lattice.part, [&](const IndexVec<Dim>& at) {
@@ -91,8 +111,7 @@ void fill_body(Body<Dim>& body, const scene::Scene& scene, const Lattice<Dim>& l
   body.particles.reserve(count);
   visit_home([&](const IndexVec<Dim>& at, std::size_t place) {
     const int shape = lattice.shape.empty() ? -1 : lattice.shape[place];
-    filler.add(at, lattice.id(at),
-               shape < 0 ? at_rest : scene.specimen.shapes[std::size_t(shape)].velocity);
+    filler.add(at, lattice.id(at), velocity_of(at, shape));
   });
   body.particles.seal();
 }
@@ -117,16 +136,20 @@ std::vector<Vec<Dim>> points_of(int material, const Specimen<Dim>& specimen,
   return points;
 }
 
+WallGrip grip_of(scene::Grip grip)
+{
+  return grip == scene::Grip::stick ? WallGrip::stick : WallGrip::slip;
+}
+
 template <int Dim>
 void add_apparatus(const scene::Scene& scene, const Specimen<Dim>& specimen,
                    const Layout<Dim>& layout, Model<Dim>& model)
 {
   const auto& loading = std::get<scene::Loading>(scene.motion);
-  const WallGrip grip = loading.grip == scene::Grip::stick ? WallGrip::stick : WallGrip::slip;
+  const WallGrip grip = grip_of(loading.grip);
   const auto wall = [&](int axis, bool upper, double position, const WallMotion& motion) {
-    auto made =
-        std::make_unique<RigidWall<Dim>>(typename RigidWall<Dim>::Placement{axis, upper, position},
-                                         motion, grip, scene.numerics.scheme->book);
+    auto made = std::make_unique<RigidWall<Dim>>(WallPlacement{axis, upper, position}, motion, grip,
+                                                 scene.numerics.scheme->book);
     RigidWall<Dim>* pointer = made.get();
     model.setup.slots.conditions.push_back(std::move(made));
     return pointer;
@@ -150,33 +173,76 @@ void add_apparatus(const scene::Scene& scene, const Specimen<Dim>& specimen,
   model.apparatus = std::move(apparatus);
 }
 
-/// Rigid and symmetric sides of the grid. Beside a piston's travel both only keep particles in.
+template <int Dim>
+WallPlacement placement_of(const Specimen<Dim>& specimen, int axis, bool upper)
+{
+  return {axis, upper, upper ? specimen.size()[axis] : 0.0};
+}
+
+/// What acts at the sides of the grid.
 template <int Dim>
 void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, Model<Dim>& model)
 {
   for (int axis = 0; axis < Dim; ++axis)
     for (const bool upper : {false, true}) {
       const auto side = side_of(scene, axis, upper);
-      if (!side || *side == scene::Lateral::free || *side == scene::Lateral::periodic) continue;
-      const bool sticks = *side == scene::Lateral::rigid && !model.apparatus;
-      auto wall = std::make_unique<RigidWall<Dim>>(
-          typename RigidWall<Dim>::Placement{axis, upper, upper ? specimen.size()[axis] : 0.0},
-          WallMotion{}, sticks ? WallGrip::stick : WallGrip::slip, scene.numerics.scheme->book);
-      if (model.apparatus) model.apparatus->at_rest.push_back(wall.get());
-      model.setup.slots.conditions.push_back(std::move(wall));
+      if (!side) continue;
+      auto condition =
+          make_side<Dim>(**side, {placement_of(specimen, axis, upper), model.apparatus.has_value(),
+                                  scene.numerics.scheme->book});
+      if (!condition) continue;
+      const auto* wall = dynamic_cast<const RigidWall<Dim>*>(condition.get());
+      if (model.apparatus && wall) model.apparatus->at_rest.push_back(wall);
+      model.setup.slots.conditions.push_back(std::move(condition));
     }
+  const auto* free = std::get_if<scene::FreeMotion>(&scene.motion);
+  if (!free) return;
+  for (const scene::MovingSide& side : free->moving_sides)
+    model.setup.slots.conditions.push_back(std::make_unique<RigidWall<Dim>>(
+        placement_of(specimen, axis_of(side.side), upper_of(side.side)),
+        WallMotion{.table = side.table}, grip_of(side.grip), scene.numerics.scheme->book));
+}
+
+/// Collective. Throws InputError on every rank for a load that finds no particle.
+template <int Dim>
+void mark_loaded(const scene::Scene& scene, const Specimen<Dim>& specimen,
+                 const Layout<Dim>& layout, MPI_Comm comm,
+                 typename UpdatedLagrangian<Dim>::Setup& setup)
+{
+  const std::vector<SurfaceMark<Dim>> marks = setup.slots.loads.marks();
+  const std::vector<GlobalIndex> counts =
+      mark_surfaces<Dim>(comm, marks, specimen.count(), layout, setup.bodies);
+  for (std::size_t k = 0; k < marks.size(); ++k)
+    if (counts[k] == 0)
+      throw InputError(fmt::format(
+          "{}: loads[{}] acts on nothing (no particle of the surface seen from its side lies "
+          "within its box). Move or enlarge loads[{}].within.",
+          scene.file.string(), marks[k].load, marks[k].load));
 }
 
 }  // namespace
 
 template <int Dim>
-ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrder<Dim>& order,
-                          const Law<Dim>& law)
+Loads<Dim> loads_of(const scene::Scene& scene)
 {
-  return {
-      transfer.motion_columns(order.needs().remap),
-      law.state_columns(),
-      {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume", "plastic_work"}};
+  std::vector<std::unique_ptr<Load<Dim>>> loads;
+  for (const scene::Load& load : scene.loads)
+    loads.push_back(make_load<Dim>(*load.kind, load.values, int(loads.size())));
+  return Loads<Dim>(std::move(loads));
+}
+
+template <int Dim>
+ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrder<Dim>& order,
+                          const Law<Dim>& law, const Loads<Dim>& loads)
+{
+  std::vector<Column> motion = transfer.motion_columns(order.needs().remap);
+  std::vector<std::string> zero_in_padding{"velocity",      "mass",           "affine_velocity",
+                                           "grid_velocity", "initial_volume", "plastic_work"};
+  for (const SurfaceMark<Dim>& mark : loads.marks()) {
+    motion.push_back({mark.column(), 1, "m2"});
+    zero_in_padding.push_back(mark.column());
+  }
+  return {std::move(motion), law.state_columns(), std::move(zero_in_padding)};
 }
 
 template <int Dim>
@@ -187,6 +253,7 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
   auto& setup = model.setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
   setup.order = make_update_order<Dim>(scene.numerics.update_order->kind);
+  setup.slots.loads = loads_of<Dim>(scene);
   setup.mass_cut = 1e-24 * layout.largest_particle_mass;
   const Lattice<Dim> lattice = specimen.lattice(nearby(specimen.whole(), layout, decomposition));
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
@@ -197,12 +264,9 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
       fill_body(setup.bodies.back(), scene, lattice, layout, decomposition);
       continue;
     }
-    std::array<WallMotion, Dim> motion;
-    for (int d = 0; d < Dim; ++d)
-      motion[d].speed = material.values.vector("velocity")[std::size_t(d)];
     setup.slots.conditions.push_back(std::make_unique<RigidBody<Dim>>(
         points_of(int(k), specimen, layout, decomposition.comm()), 0.5 * layout.location_size,
-        motion, scene.numerics.scheme->book));
+        motion_of<Dim>(material), scene.numerics.scheme->book));
   }
   if (layout.load_cell) {
     const scene::Material material = load_cell_material(scene, layout.load_cell->density_ratio);
@@ -217,6 +281,7 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
   if (std::holds_alternative<scene::Loading>(scene.motion))
     add_apparatus(scene, specimen, layout, model);
   add_sides(scene, specimen, model);
+  mark_loaded(scene, specimen, layout, decomposition.comm(), setup);
   return model;
 }
 
@@ -224,7 +289,11 @@ template Model<2> make_model(const scene::Scene&, const Specimen<2>&, const Layo
                              const Decomposition<2>&);
 template Model<3> make_model(const scene::Scene&, const Specimen<3>&, const Layout<3>&,
                              const Decomposition<3>&);
-template ParticleStore empty_store(const Transfer<2>&, const UpdateOrder<2>&, const Law<2>&);
-template ParticleStore empty_store(const Transfer<3>&, const UpdateOrder<3>&, const Law<3>&);
+template Loads<2> loads_of<2>(const scene::Scene&);
+template Loads<3> loads_of<3>(const scene::Scene&);
+template ParticleStore empty_store(const Transfer<2>&, const UpdateOrder<2>&, const Law<2>&,
+                                   const Loads<2>&);
+template ParticleStore empty_store(const Transfer<3>&, const UpdateOrder<3>&, const Law<3>&,
+                                   const Loads<3>&);
 
 }  // namespace mpm

@@ -65,6 +65,7 @@ std::vector<std::string> left_out(const scene::Scene& scene, bool remaps)
                            [](const scene::Material& m) { return m.law->has("yield_stress"); }))
     list.push_back("plasticity");
   if (loading && !loading->load_cell) list.push_back("load cell");
+  if (scene.loads.empty()) list.push_back("loads");
   if (!remaps) list.push_back("re-mapping pass");
   if (!scene.numerics.scheme->affine) list.push_back("affine velocity field");
   if (std::ranges::all_of(scene.materials, deformable)) list.push_back("rigid bodies");
@@ -78,10 +79,12 @@ double bytes_per_particle(const scene::Scene& scene, const Transfer<Dim>& transf
                           const UpdateOrder<Dim>& order)
 {
   int largest = 0;
+  const Loads<Dim> loads = loads_of<Dim>(scene);
   for (const scene::Material& material : scene.materials)
     if (material.law->deformable())
-      largest = std::max(largest,
-                         empty_store(transfer, order, *law_of<Dim>(material, scene)).packed_size());
+      largest = std::max(
+          largest,
+          empty_store(transfer, order, *law_of<Dim>(material, scene), loads).packed_size());
   return sizeof(double) * double(largest);  // the id with the columns
 }
 
@@ -106,7 +109,9 @@ std::string plan_text(const Preparation<Dim>& preparation)
   const auto transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
   const auto order = make_update_order<Dim>(scene.numerics.update_order->kind);
   const double per_particle = bytes_per_particle(scene, *transfer, *order);
-  const double per_node = NodeFields<Dim>::bytes_per_node(order->needs());
+  typename NodeFields<Dim>::Needs needs = order->needs();
+  needs.load_force = !scene.loads.empty();
+  const double per_node = NodeFields<Dim>::bytes_per_node(needs);
   const double nodes = layout.geometry.nodes.template cast<double>().prod();
 
   std::string text;
@@ -139,6 +144,8 @@ std::string plan_text(const Preparation<Dim>& preparation)
     if (material.law->deformable())
       line("material", fmt::format("{}: wave speed {:.0f} m/s, {:.0f} kg/m3", material.name,
                                    law_of<Dim>(material, scene)->wave_speed(), material.density()));
+  for (const scene::Load& load : scene.loads)
+    line("load", load.kind->keyword + ": " + load.kind->help);
   std::string absent;
   for (const std::string& what : left_out(scene, order->needs().remap))
     absent += (absent.empty() ? "" : ", ") + what;

@@ -133,7 +133,7 @@ class PressedBlocks : public ::testing::TestWithParam<Method> {
     const ReactionBook book = GetParam().scheme->book;
     BlockRun::Conditions walls;
     const auto add = [&](int axis, bool upper, double at, double velocity, WallGrip grip) {
-      walls.push_back(std::make_unique<RigidWall<2>>(RigidWall<2>::Placement{axis, upper, at},
+      walls.push_back(std::make_unique<RigidWall<2>>(WallPlacement{axis, upper, at},
                                                      WallMotion{velocity, 0}, grip, book));
     };
     add(0, true, 22 * cell, -speed, WallGrip::stick);

@@ -52,11 +52,10 @@ class PressedBlock {
     const ReactionBook book = parameters.scheme->book;
     for (int d = 0; d < Dim; ++d) {
       const double length = cells * spacing;
+      walls.push_back(std::make_unique<RigidWall<Dim>>(WallPlacement{d, false, 0.0}, WallMotion{},
+                                                       WallGrip::slip, book));
       walls.push_back(std::make_unique<RigidWall<Dim>>(
-          typename RigidWall<Dim>::Placement{d, false, 0.0}, WallMotion{}, WallGrip::slip, book));
-      walls.push_back(
-          std::make_unique<RigidWall<Dim>>(typename RigidWall<Dim>::Placement{d, true, length},
-                                           WallMotion{-rate * length, 0}, WallGrip::slip, book));
+          WallPlacement{d, true, length}, WallMotion{-rate * length, 0}, WallGrip::slip, book));
     }
     typename UpdatedLagrangian<Dim>::Setup setup{std::move(transfer), make_update_order<Dim>(order),
                                                  std::move(bodies)};

@@ -9,25 +9,26 @@ enum class WallGrip {
   slip    ///< the normal one only: also a plane of symmetry
 };
 
+struct WallPlacement {
+  int axis;
+  bool upper;       ///< the body lies below the face (wall at the upper end of the axis)
+  double position;  ///< m, of the face at time 0
+};
+
 /// A plane normal to an axis with a rigid half space behind it: the node nearest to the face and
 /// every node behind it move with the wall. Fixed edge, lateral wall and piston are this.
 template <int Dim>
 class RigidWall final : public BoundaryCondition<Dim> {
  public:
-  struct Placement {
-    int axis;
-    bool upper;       ///< the body lies below the face (wall at the upper end of the axis)
-    double position;  ///< m, of the face at time 0
-  };
-
-  RigidWall(const Placement& placement, const WallMotion& motion, WallGrip grip, ReactionBook book);
+  RigidWall(const WallPlacement& placement, const WallMotion& motion, WallGrip grip,
+            ReactionBook book);
 
   void constrain_updated(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
                          double dt) override;
   void constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
                           double dt) override;
 
-  const Placement& placement() const { return placement_; }
+  const WallPlacement& placement() const { return placement_; }
   const WallMotion& motion() const { return motion_; }
   /// m, of the face.
   double position(double time) const { return placement_.position + motion_.displacement(time); }
@@ -41,7 +42,7 @@ class RigidWall final : public BoundaryCondition<Dim> {
  private:
   void find_nodes(const Nodes<Dim>& nodes, double time);
 
-  Placement placement_;
+  WallPlacement placement_;
   WallMotion motion_;
   WallGrip grip_;
   std::vector<LocalIndex> found_;  ///< nodes at the face and behind it

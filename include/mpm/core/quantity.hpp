@@ -10,7 +10,9 @@ enum class Quantity {
   velocity,
   pressure,
   density,
-  angle
+  angle,
+  acceleration,
+  rate  ///< per time
 };
 
 }  // namespace mpm

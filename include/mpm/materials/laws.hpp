@@ -2,9 +2,9 @@
 /// The list of material laws. A new law is a file in src/materials and a line in laws.list there.
 
 #include <mpm/core/one_of.hpp>
+#include <mpm/core/parameters.hpp>
 #include <mpm/materials/elastic_constants.hpp>
 #include <mpm/materials/law.hpp>
-#include <mpm/materials/parameters.hpp>
 
 #include <memory>
 #include <optional>
@@ -13,16 +13,11 @@
 
 namespace mpm {
 
-/// A value that does not go with others.
-struct Contradiction {
-  std::string key, reason;
-};
-
 /// All that the program knows of a law. A law that makes stress has a parameter `density`, kg/m^3.
 struct LawRow {
   std::string keyword;
   std::string help;
-  std::vector<LawParameter> parameters;
+  std::vector<KindParameter> parameters;
   /// None for a law that is not there in the plane, or in space; for neither: it cannot be
   /// deformed.
   std::unique_ptr<Law<2>> (*in_plane)(const ParameterValues&, PlaneAssumption) = nullptr;
@@ -36,9 +31,6 @@ struct LawRow {
 
 template <>
 std::span<const LawRow> list_of<LawRow>();
-
-/// Gives every key of the law that has no value its default.
-void fill_defaults(const LawRow& law, ParameterValues& values);
 
 /// The law with these values; `plane` is looked at for Dim = 2. Throws InputError where there is no
 /// such law in the plane or in space, naming those that are.

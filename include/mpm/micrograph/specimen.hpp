@@ -55,6 +55,8 @@ class Specimen {
   void settle_picture(const scene::Scene& scene, Picture picture, const Share& share);
   void settle_shapes(const scene::Scene& scene, const Share& share);
   void settle_grid(const scene::Scene& scene, const Share& share);
+  /// Where the scene gives them by formulas. Throws on all parts if one is no number somewhere.
+  void settle_speeds(const scene::Scene& scene, const Share& share);
   /// Throws on all parts for a shape that contains no location.
   void check_found(const std::vector<double>& found) const;
 

@@ -21,12 +21,11 @@ template <class Choice>
 inline constexpr std::array<Named<Choice>, 0> names_of{};
 
 template <>
-inline constexpr auto names_of<Side> = std::to_array<Named<Side>>({{Side::left, "left"},
-                                                                   {Side::right, "right"},
-                                                                   {Side::bottom, "bottom"},
-                                                                   {Side::top, "top"},
-                                                                   {Side::back, "back"},
-                                                                   {Side::front, "front"}});
+inline constexpr auto names_of<Side> = [] {
+  std::array<Named<Side>, side_words.size()> names{};
+  for (std::size_t k = 0; k < names.size(); ++k) names[k] = {Side(k), side_words[k]};
+  return names;
+}();
 template <>
 inline constexpr auto names_of<Axis> =
     std::to_array<Named<Axis>>({{Axis::x, "x"}, {Axis::y, "y"}, {Axis::z, "z"}});
@@ -44,12 +43,6 @@ inline constexpr auto names_of<DecompositionKind> =
     std::to_array<Named<DecompositionKind>>({{DecompositionKind::automatic, "auto"},
                                              {DecompositionKind::cuts, "cuts"},
                                              {DecompositionKind::metis, "metis"}});
-template <>
-inline constexpr auto names_of<Lateral> =
-    std::to_array<Named<Lateral>>({{Lateral::rigid, "rigid"},
-                                   {Lateral::free, "free"},
-                                   {Lateral::symmetric, "symmetric"},
-                                   {Lateral::periodic, "periodic"}});
 template <>
 inline constexpr auto names_of<Grip> = std::to_array<Named<Grip>>({{Grip::stick, "stick"},
                                                                    {Grip::slip, "slip"}});

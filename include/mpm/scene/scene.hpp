@@ -2,6 +2,10 @@
 /// What a scene file says, in SI units, with every default filled in. Plain data: reading and
 /// checking live in reader.hpp.
 
+#include <mpm/conditions/load_rows.hpp>
+#include <mpm/conditions/side_rows.hpp>
+#include <mpm/conditions/wall_motion.hpp>
+#include <mpm/core/side.hpp>
 #include <mpm/materials/laws.hpp>
 #include <mpm/scene/plane_or_space.hpp>
 #include <mpm/scene/shapes.hpp>
@@ -16,16 +20,6 @@
 
 namespace mpm::scene {
 
-/// The lower and upper side of each axis: x, y, z. The last two belong to scenes in space.
-enum class Side { left, right, bottom, top, back, front };
-constexpr int axis_of(Side side)
-{
-  return int(side) / 2;
-}
-constexpr bool upper_of(Side side)
-{
-  return int(side) % 2 == 1;
-}
 using Plane = PlaneAssumption;
 
 // ---------------------------------------------------------------------------- materials
@@ -91,6 +85,8 @@ struct Specimen {
   std::optional<Micrograph> micrograph;
   std::vector<Shape> shapes;
   PerAxis<double> size{};  ///< m; from the image if there is one
+  /// m/s, of all that can be deformed, by the place at t = 0; without them the shapes' own.
+  std::optional<PerAxis<Formula>> initial_velocity;
   std::vector<Window> windows;
   bool operator==(const Specimen&) const = default;
 };
@@ -122,9 +118,8 @@ struct Numerics {
 
 // ---------------------------------------------------------------------------- loading
 
-/// `periodic`: what leaves through one side comes in through the other; both sides of an axis or
-/// none.
-enum class Lateral { rigid, free, symmetric, periodic };
+/// Both sides of an axis are periodic or none.
+using Lateral = OneOf<SideRow>;
 enum class Grip { stick, slip };
 
 struct LoadCell {
@@ -145,12 +140,30 @@ struct Loading {
   bool operator==(const Loading&) const = default;
 };
 
+/// A table of velocities along the side's axis.
+using MotionTable = std::vector<WallMotion::Entry>;
+
+/// A rigid wall at a side that follows a table.
+struct MovingSide {
+  Side side = Side::left;
+  Grip grip = Grip::stick;
+  MotionTable table;
+  bool operator==(const MovingSide&) const = default;
+};
+
 /// Free motion without a piston: runs to `end_time`.
 struct FreeMotion {
-  double end_time = 0;  ///< s
-  PerSide<Lateral> sides{Lateral::free, Lateral::free, Lateral::free,
-                         Lateral::free, Lateral::free, Lateral::free};  ///< of the grid
+  double end_time = 0;                                                     ///< s
+  PerSide<Lateral> sides{"free", "free", "free", "free", "free", "free"};  ///< of the grid
+  std::vector<MovingSide> moving_sides;
   bool operator==(const FreeMotion&) const = default;
+};
+
+/// The keys beside `kind` are the load's own (conditions/load_rows.hpp).
+struct Load {
+  OneOf<LoadRow> kind;
+  ParameterValues values;
+  bool operator==(const Load&) const = default;
 };
 
 // ---------------------------------------------------------------------------- output
@@ -186,6 +199,7 @@ struct Scene {
   Grid grid;
   Numerics numerics;
   std::variant<Loading, FreeMotion> motion;
+  std::vector<Load> loads;
   std::optional<long> steps;  ///< end after this many steps (benchmarks)
   Output output;
   bool operator==(const Scene&) const = default;

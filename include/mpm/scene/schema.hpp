@@ -48,6 +48,10 @@ inline constexpr std::string_view section<LoadCell> = "load cell";
 template <>
 inline constexpr std::string_view section<FreeMotion> = "free motion";
 template <>
+inline constexpr std::string_view section<MovingSide> = "moving side";
+template <>
+inline constexpr std::string_view section<Load> = "load";
+template <>
 inline constexpr std::string_view section<OutputKeys> = "output";
 inline constexpr std::string_view snapshots_section = "snapshots";
 
@@ -73,6 +77,10 @@ template <>
 const std::vector<Parameter<LoadCell>>& parameters<LoadCell>();
 template <>
 const std::vector<Parameter<FreeMotion>>& parameters<FreeMotion>();
+template <>
+const std::vector<Parameter<MovingSide>>& parameters<MovingSide>();
+template <>
+const std::vector<Parameter<Load>>& parameters<Load>();
 template <>
 const std::vector<Parameter<OutputKeys>>& parameters<OutputKeys>();
 template <>

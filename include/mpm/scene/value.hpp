@@ -109,6 +109,28 @@ struct Value<std::filesystem::path> {
   static std::string describe(const Rule&) { return "file, relative to the scene's folder"; }
 };
 
+/// A number with a unit stands for itself, any other text for a formula in SI units.
+template <>
+struct Value<Formula> {
+  static bool read(const Given& given, const Rule& rule, Formula& value);
+  static Node write(const Formula& value, const Rule& rule);
+  static std::string describe(const Rule& rule);
+};
+
+// Tables: at least two entries, times ascending.
+template <>
+struct Value<TimeTable> {
+  static bool read(const Given& given, const Rule& rule, TimeTable& table);
+  static Node write(const TimeTable& table, const Rule& rule);
+  static std::string describe(const Rule& rule);
+};
+template <>
+struct Value<MotionTable> {
+  static bool read(const Given& given, const Rule& rule, MotionTable& table);
+  static Node write(const MotionTable& table, const Rule& rule);
+  static std::string describe(const Rule& rule);
+};
+
 template <class Choice>
 requires std::is_enum_v<Choice>
 struct Value<Choice> {

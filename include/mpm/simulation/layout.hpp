@@ -7,6 +7,7 @@
 #include <mpm/micrograph/specimen.hpp>
 #include <mpm/scene/scene.hpp>
 
+#include <array>
 #include <optional>
 
 namespace mpm {
@@ -22,7 +23,7 @@ struct Layout {
   double largest_particle_mass;  ///< kg
   double wave_speed;             ///< m/s, of the stiffest body
   double cfl;
-  double largest_speed;  ///< m/s, piston or initial
+  double largest_speed;  ///< m/s, initial, or of what is moved
   /// Of the piston, towards the specimen; and the time at which the run ends, s.
   WallMotion piston;
   double end_time;
@@ -63,6 +64,10 @@ std::unique_ptr<Law<Dim>> law_of(const scene::Material& material, const scene::S
 {
   return make_law<Dim>(*material.law, material.values, scene.numerics.plane);
 }
+
+/// Of a rigid material, along each axis.
+template <int Dim>
+std::array<WallMotion, Dim> motion_of(const scene::Material& rigid);
 
 /// The load cell: elastic like the first deformable material, stiffer and denser by the same
 /// ratio, so that waves run through it as fast as through the wood.

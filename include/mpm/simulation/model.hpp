@@ -40,9 +40,12 @@ template <int Dim>
 Model<Dim> make_model(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
                       const Layout<Dim>& layout, const Decomposition<Dim>& decomposition);
 
-/// Columns of the particles of a law.
+template <int Dim>
+Loads<Dim> loads_of(const scene::Scene& scene);
+
+/// Columns of the particles of a law, with those of loads on surfaces.
 template <int Dim>
 ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrder<Dim>& order,
-                          const Law<Dim>& law);
+                          const Law<Dim>& law, const Loads<Dim>& loads);
 
 }  // namespace mpm

@@ -34,14 +34,19 @@ struct SchemeRow {
   std::optional<double> StableCfl::*stable_cfl;
 };
 
+/// The motion columns that every particle has, first of all.
+template <int Dim>
+struct LeadingColumns {
+  static constexpr int position = 0;
+  static constexpr int velocity = Dim;
+  static constexpr int mass = 2 * Dim;
+};
+
 /// Where the motion columns of a particle lie. `grid_velocity` is there only for MUSL, whose
 /// particles move in another pass than the one that reads the grid; the affine field only for
 /// the schemes that have one.
 template <int Dim, class Scheme>
-struct MotionColumns {
-  static constexpr int position = 0;
-  static constexpr int velocity = Dim;
-  static constexpr int mass = 2 * Dim;
+struct MotionColumns : LeadingColumns<Dim> {
   static constexpr int affine = 2 * Dim + 1;
   static constexpr int grid_velocity = affine + (Scheme::affine ? Dim * Dim : 0);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double rounding = 1e-12;
 
 /// A piston in its ramp, from the right, over the nodes 4..7 of which this rank owns 4 and 5.
-const RigidWall<2>::Placement placement{0, true, 2.5};
+const WallPlacement placement{0, true, 2.5};
 const WallMotion motion{-2, 1.0};
 constexpr double time = 0.5, dt = 0.25;
 

@@ -8,8 +8,8 @@ namespace {
 
 /// Compares every node with what a wall at `face` makes of it.
 template <int Dim>
-void expect_wall(MovingNodes<Dim>& nodes, const typename RigidWall<Dim>::Placement& placement,
-                 double face, double wall_velocity, WallGrip grip)
+void expect_wall(MovingNodes<Dim>& nodes, const WallPlacement& placement, double face,
+                 double wall_velocity, WallGrip grip)
 {
   int behind_count = 0;
   for (LocalIndex node = 0; node < nodes.grid.topology.size(); ++node) {
@@ -40,7 +40,7 @@ void try_all_axes(bool upper, WallGrip grip)
     for (const double cells : {3.0, 3.3, 3.7}) {
       MovingNodes<Dim> nodes;
       const double face = cells * nodes.grid.topology.geometry().spacing[axis];
-      const typename RigidWall<Dim>::Placement placement{axis, upper, face};
+      const WallPlacement placement{axis, upper, face};
       RigidWall<Dim> wall(placement, {}, grip, ReactionBook::increments);
       wall.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 1);
       wall.constrain_gradient(nodes.grid.topology, nodes.grid.fields, 0, 1);
@@ -64,7 +64,7 @@ TEST(RigidWall, MidwayBetweenTwoNodesHoldsTheOneInFrontWhateverTheRounding)
   for (const bool upper : {false, true})
     for (const double hair : {-1e-13, 0.0, 1e-13}) {
       MovingNodes<2> nodes;
-      const RigidWall<2>::Placement placement{1, upper, 1.125 + hair};  // between 4 and 5 along y
+      const WallPlacement placement{1, upper, 1.125 + hair};  // between 4 and 5 along y
       RigidWall<2> wall(placement, {}, WallGrip::slip, ReactionBook::increments);
       wall.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 1);
       wall.constrain_gradient(nodes.grid.topology, nodes.grid.fields, 0, 1);
@@ -76,7 +76,7 @@ TEST(RigidWall, AMovingOneHoldsTheNodesOfItsPlaceAtTheEndOfTheStep)
 {
   // From 3.8 m with -2 m/s: in the step from 0.2 to 0.3 s it goes from 3.4 m, where node 7 is the
   // nearest, to 3.2 m, where node 6 is.
-  const RigidWall<2>::Placement placement{0, true, 3.8};
+  const WallPlacement placement{0, true, 3.8};
   const WallMotion motion{-2, 0};
   MovingNodes<2> nodes;
   RigidWall<2> wall(placement, motion, WallGrip::stick, ReactionBook::velocities);

@@ -47,7 +47,7 @@ TEST(LawList, ExamplesOfAllParametersLieWithinTheirBoundsAndGoTogether)
   for (const LawRow& law : list_of<LawRow>()) {
     ParameterValues values;
     fill_defaults(law, values);
-    for (const LawParameter& parameter : law.parameters) {
+    for (const KindParameter& parameter : law.parameters) {
       EXPECT_FALSE(parameter.help.empty());
       if (parameter.default_value()) continue;
       EXPECT_EQ(parameter.bound.violation(parameter.example), std::nullopt) << parameter.key;

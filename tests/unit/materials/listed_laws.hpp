@@ -38,7 +38,7 @@ inline void add_values(const LawRow& row, std::size_t next, const ParameterValue
                        const std::string& name, std::vector<ListedLaw>& list)
 {
   if (next < row.parameters.size()) {
-    const LawParameter& parameter = row.parameters[next];
+    const KindParameter& parameter = row.parameters[next];
     ParameterValues more = values;
     if (parameter.choices.empty()) more.set(parameter.key, parameter.example);
     for (const std::string& word : parameter.choices) {

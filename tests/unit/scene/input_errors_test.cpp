@@ -15,8 +15,8 @@ TEST_F(InputErrors, UnknownKeys)
               ElementsAre("a.yaml:7:3: unknown key 'sped' (did you mean 'speed'?)",
                           "a.yaml:8:1: unknown key 'stepps' (did you mean 'steps'?)",
                           "a.yaml:9:1: unknown key 'colour' (known: title, name, material, "
-                          "materials, specimen, grid, numerics, loading, free_motion, steps, "
-                          "output)"));
+                          "materials, specimen, grid, numerics, loading, free_motion, loads, "
+                          "steps, output)"));
 }
 
 TEST_F(InputErrors, AMisspeltRequiredKeyIsNotReportedAsMissingToo)

@@ -52,7 +52,7 @@ TEST_F(SceneDefaults, OneValueStandsForAllSidesOfThePlane)
 {
   const Scene scene = read(smallest + "  lateral: free\ngrid: {margin: 0.1 mm, spacing: 5 um}\n");
   EXPECT_THAT(std::get<Loading>(scene.motion).lateral,
-              ElementsAre(Lateral::free, Lateral::free, Lateral::rigid, Lateral::rigid));
+              ElementsAre("free", "free", "rigid", "rigid"));
   EXPECT_THAT(scene.grid.margin, ElementsAre(1e-4, 1e-4, 1e-4, 1e-4, 0, 0));
   EXPECT_THAT(*scene.grid.spacing, ElementsAre(5e-6, 5e-6, 0));
 }

@@ -39,7 +39,7 @@ TEST_F(ScenesInSpace, OneValueStandsForAllSides)
                            "loading: {piston: front, speed: 1 m/s, lateral: free}\n");
   EXPECT_THAT(scene.grid.margin, Each(1e-6));
   EXPECT_THAT(*scene.grid.spacing, Each(5e-6));
-  EXPECT_THAT(std::get<Loading>(scene.motion).lateral, Each(Lateral::free));
+  EXPECT_THAT(std::get<Loading>(scene.motion).lateral, Each(Lateral("free")));
 }
 
 TEST_F(ScenesInSpace, ListsOfTheWrongLengthAreRefusedWithTheReason)
