@@ -101,14 +101,15 @@ Outcome run_scene(const std::string& text)
   return {std::move(result), std::move(witness.times), std::move(witness.particles)};
 }
 
-/// A block of 1 m x 0.2 m in cells of 5 cm, c = 37 m/s in confined compression.
-std::string block(const std::string& rest, const std::string& more_of_specimen = "")
+/// A block in cells of 5 cm, c = 37 m/s in confined compression.
+std::string block(const std::string& rest, const std::string& more_of_specimen = "",
+                  const std::string& corner = "[1 m, 0.2 m]")
 {
   return R"(material: {law: isotropic, youngs_modulus: 1 MPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
 specimen:
   size: [1 m, 0.2 m]
-  shapes: [{box: {lower: [0 m, 0 m], upper: [1 m, 0.2 m]}}]
-)" + more_of_specimen +
+  shapes: [{box: {lower: [0 m, 0 m], upper: )" +
+         corner + "}}]\n" + more_of_specimen +
          "grid: {cells: [20, 4], margin: 0.3 m}\noutput: {history_lines: 10}\n" + rest;
 }
 
@@ -156,30 +157,42 @@ TEST(Gravity, AColumnThatIsLoadedSlowlyCarriesItsWeight)
                 0.002 * at_foot);
   EXPECT_LT(column.last().kinetic_energy, 1e-9 * column.last().elastic_energy);
   EXPECT_LT(std::abs(column.last().energy_error), 0.01);
-  // Confined: ln(F) = - rho g (H - x) / M to first order; the energy is its square's integral.
-  EXPECT_NEAR(column.last().elastic_energy / (0.2 * at_foot * at_foot / (6 * confined_modulus)), 1,
-              0.01);
+  // The nominal stress is the weight above: tau exp(-tau / M) = -P. Its variation within a cell
+  // makes 0.06 % of the energy.
+  double energy = 0;
+  constexpr int slices = 1000;
+  for (int k = 0; k < slices; ++k) {
+    const double nominal = -at_foot * (k + 0.5) / slices;
+    double tau = nominal;
+    for (int iteration = 0; iteration < 20; ++iteration)
+      tau = nominal * std::exp(tau / confined_modulus);
+    energy += 0.2 / slices * tau * tau / (2 * confined_modulus);
+  }
+  EXPECT_NEAR(column.last().elastic_energy / energy, 1, 0.002);
 }
 
 TEST(Traction, ABarIsStressedByItAndGrowsLongerByTheForceOverTheStiffness)
 {
+  // It ends in the middle of a cell. Where a free end comes out of a cell's side, FLIP shakes on
+  // what little mass the next nodes have: 1 % of the energy, instead of none.
   const Outcome bar =
       run_scene(block("free_motion: {end_time: 1 s, sides: [symmetric, free, free, free]}\n"
                       "loads:\n"
                       "  - {kind: traction, side: right, stress: [1 kPa, 0 Pa], ramp_time: 0.2 s}\n"
-                      "  - {kind: damping, rate: 60 1/s}\n"));
+                      "  - {kind: damping, rate: 60 1/s}\n",
+                      "", "[0.975 m, 0.2 m]"));
   const double modulus = young / (1 - poisson * poisson);  // plane strain, free across
   double stress = 0, way = 0;
   int inside = 0, at_end = 0;
   for (const Particle& p : bar.particles) {
     if (p.start[0] > 0.25 && p.start[0] < 0.75) stress += p.stress[0], ++inside;
-    if (p.start[0] > 0.98) way += p.place[0] - p.start[0], ++at_end;
+    if (p.start[0] > 0.95) way += p.place[0] - p.start[0], ++at_end;
   }
   ASSERT_EQ(at_end, 8);
-  // Strains of 0.1 %: what is not linear is as small.
+  // Strains of 0.1 %: what is not linear is as small. The last half cell is not loaded in full.
   EXPECT_NEAR(stress / inside, 1000, 3);
-  EXPECT_NEAR(way / at_end / (1000 / modulus * (1 - 0.0125)), 1, 0.01);
-  EXPECT_LT(bar.last().kinetic_energy, 1e-9 * bar.last().elastic_energy);
+  EXPECT_NEAR(way / at_end / (1000 / modulus * 0.9625), 1, 0.01);
+  EXPECT_LT(bar.last().kinetic_energy, 1e-8 * bar.last().elastic_energy);
   EXPECT_LT(bar.last().momentum_error, rounding);
 }
 
@@ -302,15 +315,16 @@ TEST(Damping, AloneMakesVelocitiesFallExponentially)
 
 TEST(MovingSide, ThatFollowsATableTakesABlockAlong)
 {
-  // 0.1 s up to 1 m/s and 0.1 s down again: a way of 0.1 m; damping brings the block to rest.
+  // 0.1 s up to 0.1 m/s and 0.1 s down again: a way of 1 cm; damping brings the block to rest.
   const Outcome pushed =
       run_scene(block("free_motion: {end_time: 0.8 s, moving_sides: [{side: left, table: "
-                      "[[0 s, 0 m/s], [0.1 s, 1 m/s], [0.2 s, 0 m/s]]}]}\n"
+                      "[[0 s, 0 m/s], [0.1 s, 0.1 m/s], [0.2 s, 0 m/s]]}]}\n"
                       "loads: [{kind: damping, rate: 60 1/s}]\n"));
-  // Two cells on the way: what the block has crept along the wall is a small part of one.
+  // The wall holds nodes, from which particles creep by a part of a percent of a cell.
   for (const Particle& p : pushed.particles)
-    EXPECT_NEAR(p.place[0] - p.start[0], 0.1, 0.1 * 0.05) << p.start.transpose();
-  EXPECT_LT(std::abs(pushed.last().energy_error), 0.02);
+    EXPECT_NEAR(p.place[0] - p.start[0], 0.01, 0.01 * 0.02) << p.start.transpose();
+  // At its fastest it had 1 J.
+  EXPECT_LT(pushed.last().kinetic_energy + pushed.last().elastic_energy, 0.01);
   EXPECT_LT(pushed.last().momentum_error, rounding);
 }
 

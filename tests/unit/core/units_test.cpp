@@ -36,7 +36,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"1500 kg/m3", Quantity::density, 1500}, Case{"-3 m/s", Quantity::velocity, -3},
         Case{"+36 km/h", Quantity::velocity, 10}, Case{"2.5 us", Quantity::time, 2.5e-6},
         Case{"60 %", Quantity::fraction, 0.6}, Case{"0.6", Quantity::fraction, 0.6},
-        Case{"150", Quantity::number, 150}));
+        Case{"150", Quantity::number, 150}, Case{"9.81 m/s^2", Quantity::acceleration, 9.81},
+        Case{"3 mm/us^2", Quantity::acceleration, 3e9}, Case{"2 1/ms", Quantity::rate, 2000},
+        Case{"2 ms^-1", Quantity::rate, 2000}, Case{"5 kHz", Quantity::rate, 5000}));
 
 TEST(Units, DegreesBecomeRadians)
 {
@@ -86,10 +88,12 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     SilentTraps, Unreadable,
     testing::Values(
-        Refused{"10 Hz", Quantity::time, "Hz is not a time", "Write e.g. 1 us"},
+        Refused{"10 Hz", Quantity::time, "Hz is a rate, not a time", "Write e.g. 1 us"},
         Refused{"5 s/m", Quantity::velocity, "s/m is not a velocity", "Write e.g. 10 m/s"},
         Refused{"10 10 GPa", Quantity::pressure, "'10 GPa' is not a unit: a value has one number",
                 "Write e.g. 10.6 GPa"},
+        Refused{"10 2/s", Quantity::rate, "'2/s' is not a unit: a value has one number",
+                "Write e.g. 1000 1/s"},
         Refused{"7 MPa 3", Quantity::pressure, "'MPa 3' is not a unit: a value has one number",
                 "Write e.g. 10.6 GPa"},
         Refused{"10 m @ 5", Quantity::length, "'m @ 5' is not a unit: a value has one number",
@@ -120,7 +124,8 @@ TEST(ReadableUnits, ReadBackToTheSameBits)
 {
   for (const Quantity quantity :
        {Quantity::length, Quantity::time, Quantity::velocity, Quantity::pressure, Quantity::density,
-        Quantity::angle, Quantity::fraction, Quantity::number}) {
+        Quantity::angle, Quantity::fraction, Quantity::number, Quantity::acceleration,
+        Quantity::rate}) {
     double value = 1.0 / 3.0;
     for (int i = 0; i < 40; ++i, value *= 3.7e-1)
       EXPECT_EQ(to_si(in_readable_unit(value, quantity), quantity), value);
