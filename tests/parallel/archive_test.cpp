@@ -97,7 +97,7 @@ class SavedRun : public ::testing::TestWithParam<Method> {
     BlockRun::Conditions walls;
     const auto add = [&](bool upper, double at, double velocity) {
       walls.push_back(std::make_unique<RigidWall<2>>(
-          RigidWall<2>::Placement{0, upper, at}, WallMotion{velocity, 0}, WallGrip::stick, book));
+          WallPlacement{0, upper, at}, WallMotion{velocity, 0}, WallGrip::stick, book));
     };
     add(true, 26 * cell, -speed);
     add(false, 4 * cell, 0);

@@ -36,8 +36,8 @@ inline std::string name_of(const Method& m)
 struct Block {
   IndexVec<2> first_cell, cells;  ///< of the grid
   Vec<2> velocity;                ///< m/s
-  int field = 0;                  ///< velocity field
   std::optional<YieldConstants> yield{};
+  int field = 0;  ///< velocity field
 };
 
 /// Everything that all ranks hold of all particles, by id.

@@ -28,9 +28,9 @@ struct MeasuredRun {
   {
     BlockRun::Conditions walls;
     const auto add = [&](bool upper, double at, double velocity) {
-      auto wall = std::make_unique<RigidWall<2>>(RigidWall<2>::Placement{0, upper, at},
-                                                 WallMotion{velocity, 0}, WallGrip::slip,
-                                                 ReactionBook::increments);
+      auto wall =
+          std::make_unique<RigidWall<2>>(WallPlacement{0, upper, at}, WallMotion{velocity, 0},
+                                         WallGrip::slip, ReactionBook::increments);
       RigidWall<2>* raw = wall.get();
       walls.push_back(std::move(wall));
       return raw;

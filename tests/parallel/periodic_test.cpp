@@ -119,7 +119,7 @@ std::vector<double> pulse(LocalIndex middle, int steps)
   auto run = stepper<2>(decomposition, "linear", {{0, 2}, {around, 3}}, speed);
   for (const bool upper : {false, true})
     run->slots().conditions.push_back(
-        std::make_unique<RigidWall<2>>(RigidWall<2>::Placement{1, upper, 1 + (upper ? 3 : 2) * h},
+        std::make_unique<RigidWall<2>>(WallPlacement{1, upper, 1 + (upper ? 3 : 2) * h},
                                        WallMotion{}, WallGrip::slip, ReactionBook::increments));
   for (int step = 0; step < steps; ++step) run->step(0.25 * h);
   run->check();

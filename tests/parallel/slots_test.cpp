@@ -65,7 +65,8 @@ struct Collision {
   explicit Collision(int fields)
       : run(Decomposition<2>(MPI_COMM_WORLD, BlockRun::grid_of({26, 18}), {0, 0}, {}, {}),
             {"gimp", "flip", UpdateOrderKind::musl},
-            {{{4, 4}, {9, 8}, {speed, 0}}, {{14, 5}, {7, 6}, {-speed, 0.2 * speed}, fields - 1}},
+            {{{4, 4}, {9, 8}, {speed, 0}},
+             {{14, 5}, {7, 6}, {-speed, 0.2 * speed}, {}, fields - 1}},
             {})
   {
   }
