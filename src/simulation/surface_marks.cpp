@@ -1,4 +1,3 @@
-#include <mpm/parallel/session.hpp>
 #include <mpm/simulation/surface_marks.hpp>
 #include <mpm/transfer/scheme.hpp>
 

@@ -2,12 +2,11 @@
 /// Which particles a load on a surface acts on.
 
 #include <mpm/conditions/load.hpp>
+#include <mpm/parallel/session.hpp>
 #include <mpm/simulation/layout.hpp>
 
 #include <span>
 #include <vector>
-
-#include <mpi.h>
 
 namespace mpm {
 
