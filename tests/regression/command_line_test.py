@@ -90,8 +90,8 @@ class CommandLine(ProgramTest):
         self.assertEqual(run.stdout.count("--check"), 1)
         reference = self.run_here("--input-reference")
         self.assertEqual(reference.returncode, 0, reference.stderr)
-        self.assertIn("| `ramp_time` |", reference.stdout)
-        self.assertEqual(reference.stdout.count("| `ramp_time` |"), 1)
+        self.assertIn("| `stiffness_ratio` |", reference.stdout)
+        self.assertEqual(reference.stdout.count("| `stiffness_ratio` |"), 1)
         self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_options_behind_the_scene_reach_petsc(self):
