@@ -7,10 +7,8 @@
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/run.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <optional>
-#include <span>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
