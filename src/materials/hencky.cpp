@@ -2,6 +2,7 @@
 #include <mpm/materials/hencky.hpp>
 #include <mpm/materials/logarithmic_wave.hpp>
 #include <mpm/materials/plane_stress_return.hpp>
+#include <mpm/materials/von_mises_flow.hpp>
 
 #include <cmath>
 
@@ -90,6 +91,7 @@ class Hencky final : public Law<2> {
   static constexpr int plastic_strain = carries_zz ? 5 : 4;
   static constexpr int plastic_work = plastic_strain + 1;
   static constexpr int columns = Plastic ? plastic_work + 1 : 4;
+  static constexpr FlowColumns flow_columns{volume, plastic_strain, plastic_work};
 
  public:
   Hencky(const IsotropicConstants& elastic, double density, const YieldConstants& yield)
@@ -99,7 +101,7 @@ class Hencky final : public Law<2> {
         mu_(elastic.shear_modulus()),
         bulk_(elastic.bulk_modulus()),
         lambda_(bulk_ - 2.0 / 3.0 * mu_),
-        inverse_two_mu_(0.5 / mu_)
+        flow_(RadialFlow::of_strain(mu_, yield))
   {
   }
 
@@ -242,21 +244,14 @@ class Hencky final : public Law<2> {
   {
     const Lanes d = e.mean_deviator();
     const Lanes squared = 9.0 * d * d + 0.75 * e.plane.difference_squared;  // (q / 2 mu)^2
-    const Lanes hardening = at(s, plastic_strain);
-    const Lanes limit =
-        (yield_.yield_stress + yield_.hardening_modulus * hardening) * inverse_two_mu_;
-    const LaneMask yields = squared > limit * limit;
-    if (!stdx::any_of(yields)) return;
-    const Lanes q = stdx::sqrt(squared);
-    Lanes multiplier = 0.0, scale = 1.0;
-    stdx::where(yields, multiplier) = 2 * mu_ * (q - limit) / (3 * mu_ + yield_.hardening_modulus);
-    stdx::where(yields, scale) = 1.0 - 1.5 * multiplier / q;
+    const RadialReturn flow = flow_(squared, at(s, plastic_strain));
+    if (!flow.any) return;
     const Lanes third = e.trace() * (1.0 / 3.0);
-    scale_strain(e, 2.0 * (third + scale * d), scale);
-    e.zz = third - 2.0 * scale * d;
-    record_flow(s, multiplier);
-    put_where(yields, PlaneTensor(e.plane), s);
-    store(select(yields, e.zz, at(s, log_zz)), s + log_zz * lane_count);
+    scale_strain(e, 2.0 * (third + flow.scale * d), flow.scale);
+    e.zz = third - 2.0 * flow.scale * d;
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
+    put_where(flow.yields, PlaneTensor(e.plane), s);
+    store(select(flow.yields, e.zz, at(s, log_zz)), s + log_zz * lane_count);
   }
 
   void return_in_plane_stress(double* s, Strain& e) const
@@ -269,7 +264,7 @@ class Hencky final : public Law<2> {
     // Elastic strains are proportional to the stresses in sum and difference.
     scale_strain(e, flow.sum_scale * e.plane.sum, flow.difference_scale);
     e.zz = zz_over_sum() * e.plane.sum;
-    record_flow(s, flow.plastic_strain);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
     put_where(flow.plastic_strain > 0.0, PlaneTensor(e.plane), s);
   }
 
@@ -287,18 +282,11 @@ class Hencky final : public Law<2> {
     store(select(mask, be.xy, at(s, be_xy)), s + be_xy * lane_count);
   }
 
-  void record_flow(double* s, const Lanes& increment) const
-  {
-    const Lanes strain = at(s, plastic_strain) + increment;
-    const Lanes stress = yield_.yield_stress + yield_.hardening_modulus * strain;
-    store(strain, s + plastic_strain * lane_count);
-    store(at(s, plastic_work) + at(s, volume) * stress * increment, s + plastic_work * lane_count);
-  }
-
   IsotropicConstants elastic_;
   double density_;
   YieldConstants yield_;
-  double mu_, bulk_, lambda_, inverse_two_mu_;
+  double mu_, bulk_, lambda_;
+  RadialFlow flow_;
 };
 
 template <PlaneAssumption Plane>

@@ -1,6 +1,7 @@
 #include <mpm/materials/hencky.hpp>
 #include <mpm/materials/logarithmic_wave.hpp>
 #include <mpm/materials/space_logarithm.hpp>
+#include <mpm/materials/von_mises_flow.hpp>
 
 #include <cmath>
 
@@ -12,6 +13,7 @@ template <bool Plastic>
 class HenckySolid final : public Law<3> {
   enum : int { volume = 0, be, plastic_strain = be + 6, plastic_work };
   static constexpr int columns = Plastic ? plastic_work + 1 : plastic_strain;
+  static constexpr FlowColumns flow_columns{volume, plastic_strain, plastic_work};
 
  public:
   HenckySolid(const IsotropicConstants& elastic, double density, const YieldConstants& yield)
@@ -19,8 +21,8 @@ class HenckySolid final : public Law<3> {
         yield_(yield),
         mu_(elastic.shear_modulus()),
         bulk_(elastic.bulk_modulus()),
-        inverse_two_mu_(0.5 / mu_),
-        wave_speed_(std::sqrt(elastic.wave_modulus() / density))
+        wave_speed_(std::sqrt(elastic.wave_modulus() / density)),
+        flow_(RadialFlow::of_strain(mu_, yield))
   {
   }
 
@@ -114,32 +116,22 @@ class HenckySolid final : public Law<3> {
   void return_radially(double* s, LogarithmicStrain& e, Symmetric& b) const
   {
     const Lanes squared = 1.5 * e.deviator.squared();  // (q / 2 mu)^2
-    const Lanes hardening = at(s, plastic_strain);
-    const Lanes limit =
-        (yield_.yield_stress + yield_.hardening_modulus * hardening) * inverse_two_mu_;
-    const LaneMask yields = squared > limit * limit;
-    if (!stdx::any_of(yields)) return;
-    const Lanes q = stdx::sqrt(squared);
-    Lanes multiplier = 0.0, scale = 1.0;
-    stdx::where(yields, multiplier) = 2 * mu_ * (q - limit) / (3 * mu_ + yield_.hardening_modulus);
-    stdx::where(yields, scale) = 1.0 - 1.5 * multiplier / q;
+    const RadialReturn flow = flow_(squared, at(s, plastic_strain));
+    if (!flow.any) return;
     const Symmetric d = e.deviator;
     const auto scaled = [&](const Lanes& by) {
       return Symmetric{by * d.xx, by * d.yy, by * d.zz, by * d.xy, by * d.yz, by * d.xz};
     };
-    e.deviator = scaled(scale);
-    put_where(yields, exponential_of_deviator(scaled(2.0 * scale), lane_exp(2.0 / 3.0 * e.trace)),
-              b);
-    const Lanes strain = hardening + multiplier;
-    store(strain, s + plastic_strain * lane_count);
-    const Lanes flow_stress = yield_.yield_stress + yield_.hardening_modulus * strain;
-    store(at(s, plastic_work) + at(s, volume) * flow_stress * multiplier,
-          s + plastic_work * lane_count);
+    e.deviator = scaled(flow.scale);
+    put_where(flow.yields,
+              exponential_of_deviator(scaled(2.0 * flow.scale), lane_exp(2.0 / 3.0 * e.trace)), b);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
   }
 
   double density_;
   YieldConstants yield_;
-  double mu_, bulk_, inverse_two_mu_, wave_speed_;
+  double mu_, bulk_, wave_speed_;
+  RadialFlow flow_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <mpm/materials/hypoelastic.hpp>
 #include <mpm/materials/logarithmic_wave.hpp>
 #include <mpm/materials/plane_stress_return.hpp>
+#include <mpm/materials/von_mises_flow.hpp>
 
 #include <Eigen/LU>
 #include <cmath>
@@ -50,6 +51,7 @@ class Hypoelastic final : public Law<2> {
   static constexpr int plastic_strain = third + 1;
   static constexpr int plastic_work = plastic_strain + 1;
   static constexpr int columns = Plastic ? plastic_work + 1 : third + 1;
+  static constexpr FlowColumns flow_columns{volume, plastic_strain, plastic_work};
 
  public:
   Hypoelastic(const PlaneStiffness& stiffness, const IsotropicConstants& elastic,
@@ -58,7 +60,8 @@ class Hypoelastic final : public Law<2> {
         compliance_(stiffness.in_plane.inverse()),
         elastic_(elastic),
         yield_(yield),
-        density_(density)
+        density_(density),
+        flow_(RadialFlow::of_stress(elastic.shear_modulus(), yield))
   {
   }
 
@@ -205,23 +208,17 @@ class Hypoelastic final : public Law<2> {
     put_force_stress(s, Rotation(nxx, nyx, nxy, nyy), t, out);
   }
 
-  /// Radial return (Wilkins 1964; Simo & Hughes 1998, box 3.1).
   void return_radially(double* s, Symmetric& t, Lanes& zz) const
   {
     const Lanes p = (t.xx + t.yy + zz) / 3.0;
     const Lanes a = t.xx - p, b = t.yy - p, c = zz - p;
     const Lanes squared = 1.5 * (a * a + b * b + c * c + 2.0 * t.xy * t.xy);
-    const Lanes limit = yield_.yield_stress + yield_.hardening_modulus * at(s, plastic_strain);
-    const LaneMask yields = squared > limit * limit;
-    if (!stdx::any_of(yields)) return;
-    const Lanes q = stdx::sqrt(squared);
-    const double three_mu = 3 * elastic_.shear_modulus();
-    Lanes multiplier = 0.0, scale = 1.0;
-    stdx::where(yields, multiplier) = (q - limit) / (three_mu + yield_.hardening_modulus);
-    stdx::where(yields, scale) = 1.0 - three_mu * multiplier / q;
+    const RadialReturn flow = flow_(squared, at(s, plastic_strain));
+    if (!flow.any) return;
+    const Lanes& scale = flow.scale;
     t = {p + scale * a, p + scale * b, scale * t.xy};
     zz = p + scale * c;
-    record_flow(s, multiplier);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
   }
 
   PlaneStressReturn return_in_plane_stress(double* s, Symmetric& t) const
@@ -233,16 +230,8 @@ class Hypoelastic final : public Law<2> {
     const Lanes new_sum = flow.sum_scale * sum, new_difference = flow.difference_scale * difference;
     t = {0.5 * (new_sum + new_difference), 0.5 * (new_sum - new_difference),
          flow.difference_scale * t.xy};
-    record_flow(s, flow.plastic_strain);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
     return flow;
-  }
-
-  void record_flow(double* s, const Lanes& increment) const
-  {
-    const Lanes strain = at(s, plastic_strain) + increment;
-    const Lanes flow_stress = yield_.yield_stress + yield_.hardening_modulus * strain;
-    put(strain, s, plastic_strain);
-    put(at(s, plastic_work) + at(s, volume) * flow_stress * increment, s, plastic_work);
   }
 
   PlaneStiffness stiffness_;
@@ -250,6 +239,7 @@ class Hypoelastic final : public Law<2> {
   IsotropicConstants elastic_;
   YieldConstants yield_;
   double density_;
+  RadialFlow flow_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <mpm/materials/hypoelastic_solid.hpp>
 #include <mpm/materials/logarithmic_wave.hpp>
 #include <mpm/materials/space_tensor.hpp>
+#include <mpm/materials/von_mises_flow.hpp>
 
 #include <cmath>
 
@@ -31,10 +32,14 @@ template <bool Plastic>
 class HypoelasticSolid final : public Law<3> {
   enum : int { volume = 0, volume_ratio, tau, plastic_strain = tau + 6, plastic_work };
   static constexpr int columns = Plastic ? plastic_work + 1 : plastic_strain;
+  static constexpr FlowColumns flow_columns{volume, plastic_strain, plastic_work};
 
  public:
   HypoelasticSolid(const IsotropicConstants& elastic, const YieldConstants& yield, double density)
-      : elastic_(elastic), yield_(yield), density_(density)
+      : elastic_(elastic),
+        yield_(yield),
+        density_(density),
+        flow_(RadialFlow::of_stress(elastic.shear_modulus(), yield))
   {
   }
 
@@ -126,33 +131,23 @@ class HypoelasticSolid final : public Law<3> {
             0.5 * mu * (g.a[1][2] + g.a[2][1]), 0.5 * mu * (g.a[0][2] + g.a[2][0])};
   }
 
-  /// Radial return (Wilkins 1964; Simo & Hughes 1998, box 3.1).
   void return_radially(double* s, Symmetric& t) const
   {
     const Symmetric dev = t.deviator();
     const Lanes squared = 1.5 * dev.squared();
-    const Lanes old_strain = at(s, plastic_strain);
-    const Lanes limit = yield_.yield_stress + yield_.hardening_modulus * old_strain;
-    const LaneMask yields = squared > limit * limit;
-    if (!stdx::any_of(yields)) return;
-    const Lanes q = stdx::sqrt(squared);
-    const double three_mu = 3 * elastic_.shear_modulus();
-    Lanes multiplier = 0.0, scale = 1.0;
-    stdx::where(yields, multiplier) = (q - limit) / (three_mu + yield_.hardening_modulus);
-    stdx::where(yields, scale) = 1.0 - three_mu * multiplier / q;
+    const RadialReturn flow = flow_(squared, at(s, plastic_strain));
+    if (!flow.any) return;
+    const Lanes& scale = flow.scale;
     const Lanes p = t.mean();
     t = {p + scale * dev.xx, p + scale * dev.yy, p + scale * dev.zz,
          scale * dev.xy,     scale * dev.yz,     scale * dev.xz};
-    const Lanes strain = old_strain + multiplier;
-    store(strain, s + plastic_strain * lane_count);
-    const Lanes flow_stress = yield_.yield_stress + yield_.hardening_modulus * strain;
-    store(at(s, plastic_work) + at(s, volume) * flow_stress * multiplier,
-          s + plastic_work * lane_count);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
   }
 
   IsotropicConstants elastic_;
   YieldConstants yield_;
   double density_;
+  RadialFlow flow_;
 };
 
 }  // namespace
