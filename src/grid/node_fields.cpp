@@ -25,7 +25,7 @@ NodeFields<Dim>::NodeFields(LocalIndex nodes, const Needs& needs, double mass_cu
     : mass_cut_(mass_cut)
 {
   // Rows of node masses are added four at a time: room for the last row's tail.
-  mass.assign(nodes + 4, 0.0);
+  if constexpr (!mass_slot) mass.assign(nodes + 4, 0.0);
   momentum_force.assign(std::size_t(nodes) * record_width, 0.0);
   updated.assign(std::size_t(nodes) * record_width, 0.0);
   if (needs.remap) remapped_momentum.assign(std::size_t(nodes) * remap_width, 0.0);
@@ -37,7 +37,7 @@ template <int Dim>
 void NodeFields<Dim>::reset(Runs runs)
 {
   for (const NodeRun<Dim>& run : runs) {
-    zero(mass, run.first, run.length, 1);
+    if constexpr (!mass_slot) zero(mass, run.first, run.length, 1);
     zero(momentum_force, run.first, run.length, record_width);
     if (!load_force.empty()) zero(load_force, run.first, run.length, Dim);
   }
@@ -53,7 +53,7 @@ template <int Dim>
 void NodeFields<Dim>::clear(std::span<const LocalIndex> nodes)
 {
   for (const LocalIndex node : nodes) {
-    mass[node] = 0;
+    mass_of(node) = 0;
     zero(momentum_force, node, 1, record_width);
     zero(updated, node, 1, record_width);
     if (!remapped_momentum.empty()) zero(remapped_momentum, node, 1, remap_width);
@@ -74,7 +74,7 @@ template <int Dim>
 void NodeFields<Dim>::update_velocity(Runs runs, double dt)
 {
   for_each_node(runs, [&](LocalIndex node) {
-    const double inverse_mass = is_active(node) ? 1.0 / mass[node] : 0.0;
+    const double inverse_mass = is_active(node) ? 1.0 / mass_of(node) : 0.0;
     const double* mf = &momentum_force[std::size_t(node) * record_width];
     double* u = &updated[std::size_t(node) * record_width];
     for (int d = 0; d < Dim; ++d) {
@@ -97,7 +97,7 @@ template <int Dim>
 void NodeFields<Dim>::gradient_from_momentum(Runs runs)
 {
   for_each_node(runs, [&](LocalIndex node) {
-    const double inverse_mass = is_active(node) ? 1.0 / mass[node] : 0.0;
+    const double inverse_mass = is_active(node) ? 1.0 / mass_of(node) : 0.0;
     const double* momentum = &momentum_force[std::size_t(node) * record_width];
     for (int d = 0; d < Dim; ++d) set_gradient_velocity(node, d, momentum[d] * inverse_mass);
   });
@@ -107,7 +107,7 @@ template <int Dim>
 void NodeFields<Dim>::gradient_from_remap(Runs runs)
 {
   for_each_node(runs, [&](LocalIndex node) {
-    const double inverse_mass = is_active(node) ? 1.0 / mass[node] : 0.0;
+    const double inverse_mass = is_active(node) ? 1.0 / mass_of(node) : 0.0;
     const double* momentum = &remapped_momentum[std::size_t(node) * remap_width];
     for (int d = 0; d < Dim; ++d) set_gradient_velocity(node, d, momentum[d] * inverse_mass);
   });

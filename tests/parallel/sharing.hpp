@@ -51,18 +51,23 @@ inline double partial_value(int rank, GlobalIndex node, int slot)
 /// The arrays that sums go to, with every slot filled: what a sum does not concern must stay.
 template <int Dim>
 struct Slots {
-  static constexpr int record = NodeFields<Dim>::record_width, remap = NodeFields<Dim>::remap_width;
-  static constexpr int first_remap = 1 + record, count = first_remap + remap;
+  using Fields = NodeFields<Dim>;
+  static constexpr int first_remap = Fields::record_width;
+  static constexpr int apart = first_remap + Fields::remap_width;  ///< the mass, where it is
+  static constexpr int count = apart + !Fields::mass_slot;
 
   static double& of(NodeGrid<Dim>& grid, LocalIndex node, int slot)
   {
-    if (slot == 0) return grid.fields.mass[node];
     if (slot < first_remap)
-      return grid.fields.momentum_force[std::size_t(node) * record + slot - 1];
-    return grid.fields.remapped_momentum[std::size_t(node) * remap + slot - first_remap];
+      return grid.fields.momentum_force[std::size_t(node) * Fields::record_width + slot];
+    if (slot < apart)
+      return grid.fields
+          .remapped_momentum[std::size_t(node) * Fields::remap_width + slot - first_remap];
+    return grid.fields.mass_of(node);
   }
-  static int momentum(int d) { return 1 + d; }
-  static int force(int d) { return 1 + Dim + d; }
+  static int mass() { return Fields::mass_slot.value_or(apart); }
+  static int momentum(int d) { return d; }
+  static int force(int d) { return Dim + d; }
   static int remapped(int d) { return first_remap + d; }
 };
 
@@ -77,7 +82,7 @@ struct SumCase {
 template <int Dim>
 std::vector<SumCase<Dim>> node_sums(NodeFields<Dim>& fields)
 {
-  std::set<int> mass{0}, momentum, force, remapped;
+  std::set<int> mass{Slots<Dim>::mass()}, momentum, force, remapped;
   for (int d = 0; d < Dim; ++d) {
     momentum.insert(Slots<Dim>::momentum(d));
     force.insert(Slots<Dim>::force(d));

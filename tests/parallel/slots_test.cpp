@@ -19,11 +19,11 @@ class Sticking final : public Contact<2> {
   {
     ++calls;
     for_each_node(grid, [&](LocalIndex node) {
-      const double mass = fields[0].mass[node] + fields[1].mass[node];
+      const double mass = fields[0].mass_of(node) + fields[1].mass_of(node);
       if (mass <= 0) return;
       for (int c = 0; c < 4; ++c) {
-        const double shared = (fields[0].mass[node] * fields[0].updated_of(node)[c] +
-                               fields[1].mass[node] * fields[1].updated_of(node)[c]) /
+        const double shared = (fields[0].mass_of(node) * fields[0].updated_of(node)[c] +
+                               fields[1].mass_of(node) * fields[1].updated_of(node)[c]) /
                               mass;
         for (NodeFields<2>& field : fields) field.updated_of(node)[c] = shared;
       }
@@ -33,11 +33,11 @@ class Sticking final : public Contact<2> {
                          double) override
   {
     for_each_node(grid, [&](LocalIndex node) {
-      const double mass = fields[0].mass[node] + fields[1].mass[node];
+      const double mass = fields[0].mass_of(node) + fields[1].mass_of(node);
       if (mass <= 0) return;
       for (int d = 0; d < 2; ++d) {
-        const double shared = (fields[0].mass[node] * fields[0].gradient_velocity_of(node)[d] +
-                               fields[1].mass[node] * fields[1].gradient_velocity_of(node)[d]) /
+        const double shared = (fields[0].mass_of(node) * fields[0].gradient_velocity_of(node)[d] +
+                               fields[1].mass_of(node) * fields[1].gradient_velocity_of(node)[d]) /
                               mass;
         for (NodeFields<2>& field : fields) field.set_gradient_velocity(node, d, shared);
       }
@@ -64,7 +64,7 @@ struct Collision {
 
   explicit Collision(int fields)
       : run(Decomposition<2>(MPI_COMM_WORLD, BlockRun::grid_of({26, 18}), {0, 0}, {}, {}),
-            {"gimp", "flip", UpdateOrderKind::musl},
+            {"gimp", "flip", "musl"},
             {{{4, 4}, {9, 8}, {speed, 0}},
              {{14, 5}, {7, 6}, {-speed, 0.2 * speed}, {}, fields - 1}},
             {})

@@ -37,7 +37,7 @@ class BoundaryCondition {
     u[component] = after;
     u[Dim + component] = after - before;
     if (!owned) return;
-    const double impulse = fields.mass[node] * (after - free_velocity);
+    const double impulse = fields.mass_of(node) * (after - free_velocity);
     reaction_.impulse[component] += impulse;
     reaction_.work += impulse * 0.5 * (before + after);
   }

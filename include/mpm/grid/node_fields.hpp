@@ -6,6 +6,8 @@
 #include <mpm/core/lane_vector.hpp>
 #include <mpm/grid/grid_topology.hpp>
 
+#include <optional>
+
 namespace mpm {
 
 /// Values of nodes somewhere in memory, `width` of them per node:
@@ -21,6 +23,10 @@ class NodeFields {
  public:
   /// Width of a node's record: momentum and force, or updated velocity and its increment.
   static constexpr int record_width = Dim == 2 ? 4 : 8;
+  /// Where the mass rides in the record of momentum and force: its sum then costs nothing. In the
+  /// plane the record is full.
+  static constexpr std::optional<int> mass_slot =
+      Dim == 3 ? std::optional<int>(2 * Dim) : std::nullopt;
   /// In 2D the velocity is there twice, so that one product yields both columns of its gradient.
   static constexpr int velocity_width = 4;
   static constexpr int remap_width = Dim == 2 ? 2 : 4;
@@ -36,7 +42,7 @@ class NodeFields {
   /// `mass_cut`, kg: nodes with less take no part.
   NodeFields(LocalIndex nodes, const Needs& needs, double mass_cut);
 
-  bool is_active(LocalIndex node) const { return mass[node] > mass_cut_; }
+  bool is_active(LocalIndex node) const { return mass_of(node) > mass_cut_; }
 
   using Runs = std::span<const NodeRun<Dim>>;
   /// Zeroes mass, momentum, force and load force.
@@ -55,6 +61,14 @@ class NodeFields {
   void gradient_from_remap(Runs runs);
   void gradient_from_updated(Runs runs);
 
+  double& mass_of(LocalIndex node)
+  {
+    if constexpr (mass_slot)
+      return momentum_force[std::size_t(node) * record_width + *mass_slot];
+    else
+      return mass[std::size_t(node)];
+  }
+  double mass_of(LocalIndex node) const { return const_cast<NodeFields*>(this)->mass_of(node); }
   double* updated_of(LocalIndex node) { return updated.data() + std::size_t(node) * record_width; }
   double* force_of(LocalIndex node)
   {
@@ -67,7 +81,13 @@ class NodeFields {
   void set_gradient_velocity(LocalIndex node, int component, double value);
 
   // For sums over the ranks.
-  NodeColumn mass_column() { return {mass.data(), 1, 1}; }
+  NodeColumn mass_column()
+  {
+    if constexpr (mass_slot)
+      return {momentum_force.data() + *mass_slot, record_width, 1};
+    else
+      return {mass.data(), 1, 1};
+  }
   NodeColumn momentum_column() { return {momentum_force.data(), record_width, Dim}; }
   NodeColumn force_column() { return {momentum_force.data() + Dim, record_width, Dim}; }
   NodeColumn momentum_force_column() { return {momentum_force.data(), record_width, 2 * Dim}; }
@@ -79,13 +99,13 @@ class NodeFields {
   /// Of memory per node.
   static double bytes_per_node(const Needs& needs)
   {
-    return sizeof(double) * (1.0 + 2 * record_width + velocity_width + needs.remap * remap_width +
-                             needs.load_force * Dim);
+    return sizeof(double) * (!mass_slot + 2.0 * record_width + velocity_width +
+                             needs.remap * remap_width + needs.load_force * Dim);
   }
 
   // Node values, local numbering, x fastest. [N], [N * record_width], ...; kg, kg m/s and N, m/s.
-  LaneVector<double> mass;
-  LaneVector<double> momentum_force;     ///< {mv, f}
+  LaneVector<double> mass;               ///< empty where it rides in the record
+  LaneVector<double> momentum_force;     ///< {mv, f}, in space {mv, f, m, nothing}
   LaneVector<double> updated;            ///< {v after the step, its increment dt a}
   LaneVector<double> remapped_momentum;  ///< empty where it is not needed
   LaneVector<double> load_force;         ///< [N * Dim], empty where there are no loads

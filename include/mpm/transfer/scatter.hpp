@@ -25,6 +25,8 @@ class Scatter {
       Content.remap ? NodeFields<Dim>::remap_width : NodeFields<Dim>::record_width;
   using R = Record<width>;
   using MassRow = Record<4>;
+  /// In a row of its own, or in the record of momentum and force.
+  static constexpr bool mass_apart = Content.mass && !NodeFields<Dim>::mass_slot;
 
  public:
   Scatter(const GridTopology<Dim>& grid, NodeFields<Dim>& fields)
@@ -79,7 +81,6 @@ class Scatter {
                                         const double* force_stress)
   {
     const auto &w = stencil.weight, &g = stencil.gradient, &offset = stencil.offset;
-    const auto& mv = columns.momentum;
     const auto& mc = columns.affine;
     for (int lane = 0; lane < lane_count; ++lane) {
       const LocalIndex base = LocalIndex(stencil.base[lane]);
@@ -91,7 +92,7 @@ class Scatter {
         }
       }
       // Column j of V0 tau times the gradient's component j.
-      R plain = R([&](auto k) { return momentum_at(mv, k, lane); });
+      R plain = R([&](auto k) { return momentum_at(columns, k, lane); });
       R tau[Dim], along[Dim];
       for (int j = 0; j < Dim; ++j) {
         if constexpr (Content.force)
@@ -106,7 +107,7 @@ class Scatter {
         double w_row = w[1][b][lane];
         if constexpr (Dim == 3) w_row *= w[2][c][lane];
         const std::size_t node = first_of_row(base, row);
-        if constexpr (Content.mass) {
+        if constexpr (mass_apart) {
           if constexpr (InRegisters)
             mass_[row] += mass_row * w_row;
           else
@@ -141,9 +142,11 @@ class Scatter {
     }
   }
 
-  static double momentum_at(const double (&mv)[Dim][lane_count], int k, int lane)
+  /// Component k of the record without the force.
+  static double momentum_at(const Columns& columns, int k, int lane)
   {
-    return (Content.momentum || Content.remap) && k < Dim ? mv[k][lane] : 0.0;
+    if (Content.mass && NodeFields<Dim>::mass_slot == k) return columns.mass[lane];
+    return (Content.momentum || Content.remap) && k < Dim ? columns.momentum[k][lane] : 0.0;
   }
   /// Component k of the record for column j of V0 tau.
   static double stress_at(const double* s, int k, int j, int lane)
@@ -160,7 +163,7 @@ class Scatter {
   [[gnu::always_inline]] void clear()
   {
     for (R& s : sum_) s = 0.0;
-    if constexpr (Content.mass)
+    if constexpr (mass_apart)
       for (MassRow& s : mass_) s = 0.0;
   }
 
@@ -182,7 +185,7 @@ class Scatter {
     for (int row = 0; row < rows; ++row) {
       const std::size_t node = first_of_row(base_, row);
       for (int a = 0; a < n; ++a) add_to(target_ + (node + a) * width, sum_[row * n + a]);
-      if constexpr (Content.mass) add_to(mass_of_nodes_ + node, mass_[row]);
+      if constexpr (mass_apart) add_to(mass_of_nodes_ + node, mass_[row]);
     }
   }
 

@@ -39,10 +39,10 @@ struct LoadedNodes : MovingNodes<Dim> {
   {
     const NodeColumn momentum = fields.momentum_column();
     for (LocalIndex node = 0; node < this->grid.topology.size(); ++node) {
-      fields.mass[std::size_t(node)] = this->grid.fields.mass[std::size_t(node)];
+      fields.mass_of(node) = this->grid.fields.mass_of(node);
       for (int d = 0; d < Dim; ++d)
         momentum.values[node * momentum.stride + d] =
-            fields.mass[std::size_t(node)] * this->velocity(node, d);
+            fields.mass_of(node) * this->velocity(node, d);
     }
   }
 
@@ -55,7 +55,7 @@ struct LoadedNodes : MovingNodes<Dim> {
     loads.book(topology, fields, dt);
   }
   double force(LocalIndex node, int d) const { return fields.load_force[node * Dim + d]; }
-  double mass(LocalIndex node) const { return fields.mass[std::size_t(node)]; }
+  double mass(LocalIndex node) const { return fields.mass_of(node); }
 };
 
 template <class Case>

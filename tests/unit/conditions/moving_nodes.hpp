@@ -17,7 +17,7 @@ struct MovingNodes {
     for (LocalIndex node = 0; node < grid.topology.size(); ++node) grid.topology.touch(node);
     grid.end_activity(2);
     for (LocalIndex node = 0; node < grid.topology.size(); ++node) {
-      grid.fields.mass[node] = 1 + node / 100.0;
+      grid.fields.mass_of(node) = 1 + node / 100.0;
       for (int d = 0; d < Dim; ++d) {
         grid.fields.updated_of(node)[d] = velocity(node, d);
         grid.fields.updated_of(node)[Dim + d] = increment(node, d);

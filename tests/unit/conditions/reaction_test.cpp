@@ -28,7 +28,7 @@ Reaction<2> sum_over_owned_nodes(const MovingNodes<2>& nodes, FreeVelocity free_
       const double before = d == 0 ? motion.velocity(time) : 0;
       const double after = d == 0 ? motion.velocity(time + dt) : 0;
       const double impulse =
-          nodes.grid.fields.mass[node] * (after - free_velocity(node, d, before));
+          nodes.grid.fields.mass_of(node) * (after - free_velocity(node, d, before));
       sum.impulse[d] += impulse;
       sum.work += impulse * 0.5 * (before + after);
     }
@@ -74,7 +74,7 @@ TEST(Reaction, OfOneNodeByHand)
     MovingNodes<2> nodes(1.9);
     std::ranges::fill(nodes.grid.fields.mass, 0.0);
     const LocalIndex node = nodes.grid.topology.index_of({5, 3});
-    nodes.grid.fields.mass[node] = 2;
+    nodes.grid.fields.mass_of(node) = 2;
     nodes.grid.fields.updated_of(node)[0] = nodes.grid.fields.updated_of(node)[2] = 0.5;
     RigidWall<2> piston({0, true, 2.0}, {-3, 0}, WallGrip::slip, book);
     piston.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 1e-3);
@@ -97,7 +97,7 @@ TEST(Reaction, OfTwoRanksThatShareNodesCountsEachNodeOnce)
     for (int i = local.lower[0]; i < local.upper[0]; ++i)
       for (int j = local.lower[1]; j < local.upper[1]; ++j) {
         const LocalIndex node = grid.topology.index_of({i, j});
-        grid.fields.mass[node] = 1 + i;
+        grid.fields.mass_of(node) = 1 + i;
         grid.fields.updated_of(node)[1] = -1.0 - j;
       }
     RigidWall<2> floor({1, false, 2.0}, {}, WallGrip::slip, ReactionBook::velocities);

@@ -83,7 +83,7 @@ TEST(RigidBody, BooksEachOwnedNodeOnceAlsoWhereItsBoxesMeet)
   double impulse = 0;
   for (int j = 3; j <= 5; ++j) {
     const LocalIndex node = nodes.grid.topology.index_of({5, j});
-    impulse += nodes.grid.fields.mass[node] * (-3 - nodes.velocity(node, 0));
+    impulse += nodes.grid.fields.mass_of(node) * (-3 - nodes.velocity(node, 0));
   }
   body.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 0);
   const Reaction<2> reaction = body.take_reaction();

@@ -113,7 +113,7 @@ void fill_all(NodeGrid<Dim>& grid)
 template <int Dim>
 std::vector<double> values_at(const NodeGrid<Dim>& grid, LocalIndex node)
 {
-  std::vector<double> values{grid.fields.mass[node]};
+  std::vector<double> values{grid.fields.mass_of(node)};
   const auto append = [&](const LaneVector<double>& all, int width) {
     values.insert(values.end(), all.begin() + node * width, all.begin() + (node + 1) * width);
   };
@@ -139,7 +139,7 @@ void expect_work_stays_inside_the_runs(NodeGrid<Dim> grid, const IndexVec<Dim>& 
   grid.fields.gradient_from_updated(grid.topology.runs());
   for (LocalIndex node = 0; node < grid.topology.size(); ++node)
     if (active.contains(node)) {
-      EXPECT_EQ(grid.fields.mass[node], 0);
+      EXPECT_EQ(grid.fields.mass_of(node), 0);
       EXPECT_EQ(grid.fields.momentum_force[node * NodeFields<Dim>::record_width], 0);
       EXPECT_EQ(grid.fields.updated[node * NodeFields<Dim>::record_width], 0);
       EXPECT_EQ(grid.fields.remapped_momentum[node * NodeFields<Dim>::remap_width], 0);

@@ -31,7 +31,7 @@ struct TwoNodes {
   }
   void put(LocalIndex node, double mass)
   {
-    grid.fields.mass[node] = mass;
+    grid.fields.mass_of(node) = mass;
     for (int d = 0; d < Dim; ++d) {
       grid.fields.momentum_force[node * NodeFields<Dim>::record_width + d] = 6 + d;  // kg m/s
       grid.fields.momentum_force[node * NodeFields<Dim>::record_width + Dim + d] = -10 - d;  // N

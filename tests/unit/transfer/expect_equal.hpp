@@ -40,7 +40,7 @@ void expect_nodes_equal(const Cloud<Dim>& cloud)
     const NaiveNode<Dim>& node = cloud.nodes[i];
     // Sums of up to 61 terms with weights up to 1: masses and velocities of size 1, stresses of
     // size 4 with gradients of size 3.
-    EXPECT_NEAR(cloud.grid.fields.mass[i], node.mass, 20 * rounding) << "node " << i;
+    EXPECT_NEAR(cloud.grid.fields.mass_of(i), node.mass, 20 * rounding) << "node " << i;
     EXPECT_LT((momentum_of(cloud.grid, i) - node.momentum).norm(), 50 * rounding) << "node " << i;
     EXPECT_LT((force_of(cloud.grid, i) - node.force).norm(), 200 * rounding) << "node " << i;
   }

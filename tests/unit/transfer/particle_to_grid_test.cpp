@@ -35,7 +35,7 @@ void expect_conservation(TransferCase c)
   double mass = 0;
   Vec<Dim> momentum = Vec<Dim>::Zero(), force = Vec<Dim>::Zero();
   for (LocalIndex i = 0; i < cloud.grid.topology.size(); ++i) {
-    mass += cloud.grid.fields.mass[i];
+    mass += cloud.grid.fields.mass_of(i);
     momentum += momentum_of(cloud.grid, i);
     force += force_of(cloud.grid, i);
   }
