@@ -66,7 +66,8 @@ GridGeometry<Dim> geometry(LocalIndex cells)
           IndexVec<Dim>::Constant(cells + 2 * margin + 1)};
 }
 
-/// Two particles per cell and axis; velocity `rate` (1/s) times the position, towards the origin.
+/// Two particles per cell and axis; velocity along x `rate` (1/s) times the position, towards the
+/// origin: a strain with a deviator, also in space.
 template <int Dim>
 Body<Dim> make_body(const Transfer<Dim>& transfer, bool musl, bool plastic, LocalIndex cells,
                     double rate)
@@ -90,7 +91,7 @@ Body<Dim> make_body(const Transfer<Dim>& transfer, bool musl, bool plastic, Loca
     for (LocalIndex d = 0, rest = k; d < Dim; ++d, rest /= across) {
       // Not at the places where a stencil changes its first node.
       motion(d, p) = (0.27 + 0.5 * (rest % across)) * spacing;
-      motion(Dim + d, p) = -rate * motion(d, p);
+      motion(Dim + d, p) = d == 0 ? -rate * motion(d, p) : 0;
     }
     motion(2 * Dim, p) = density * volume;
     body.particles.state()(0, p) = volume;

@@ -14,7 +14,7 @@ enum class Pass { musl_velocity, musl_stress, usf_stress, usf_velocity, usl };
 constexpr const char* pass_names[] = {"musl_velocity", "musl_stress", "usf_stress", "usf_velocity",
                                       "usl"};
 
-/// Body and grid with the velocities of even compression, sorted; plastic ones past yield.
+/// Body and grid with the velocities of compression along x, sorted; plastic ones past yield.
 template <int Dim>
 struct Block {
   Case parameters;
@@ -33,12 +33,10 @@ struct Block {
   {
     for (LocalIndex node = 0; node < grid.topology.size(); ++node) {
       grid.topology.touch(node);
-      for (int d = 0; d < Dim; ++d) {
-        const LocalIndex index = node / grid.topology.stride(d) % grid.topology.local().count()[d];
-        const double v = -rate * grid.topology.geometry().node_position(d, index);
-        grid.fields.updated_of(node)[d] = v;
-        grid.fields.set_gradient_velocity(node, d, v);
-      }
+      const LocalIndex along_x = node % grid.topology.local().count()[0];
+      const double v = -rate * grid.topology.geometry().node_position(0, along_x);
+      grid.fields.updated_of(node)[0] = v;
+      grid.fields.set_gradient_velocity(node, 0, v);
     }
     grid.end_activity(transfer->support());
     sort();

@@ -12,19 +12,17 @@ namespace {
 constexpr double rate = 5e4;  // 1/s: a strain of 5e-5 in each step
 constexpr double dt = 1e-9;   // s
 
-constexpr const char* order_names[] = {"musl", "usf", "usl"};
-
 /// These take the gradient of a velocity that the force has just changed: no stable step.
-bool unstable(const Case& c, UpdateOrderKind order)
+bool unstable(const Case& c, OneOf<UpdateOrderRow> order)
 {
-  return !stable_cfl(*c.shape, *c.scheme, *OneOf<UpdateOrderRow>(order_names[int(order)]));
+  return !stable_cfl(*c.shape, *c.scheme, *order);
 }
 
-/// A block whose lower sides rest on walls and whose upper sides are pressed towards them.
+/// A block between walls, the upper one along x pressed towards the lower.
 template <int Dim>
 class PressedBlock {
  public:
-  PressedBlock(const Case& c, UpdateOrderKind order)
+  PressedBlock(const Case& c, OneOf<UpdateOrderRow> order)
       : parameters(c),
         order(order),
         decomposition_(MPI_COMM_WORLD, geometry<Dim>(cells_per_axis<Dim>), IndexVec<Dim>::Zero(),
@@ -38,7 +36,7 @@ class PressedBlock {
   LocalIndex particles() const { return stepper_->particles(); }
 
   const Case parameters;
-  const UpdateOrderKind order;
+  const OneOf<UpdateOrderRow> order;
 
  private:
   std::unique_ptr<UpdatedLagrangian<Dim>> make_stepper() const
@@ -46,19 +44,18 @@ class PressedBlock {
     constexpr LocalIndex cells = cells_per_axis<Dim>;
     auto transfer = make_transfer<Dim>(parameters.shape, parameters.scheme, 2);
     std::vector<Body<Dim>> bodies;
-    bodies.push_back(
-        make_body<Dim>(*transfer, order == UpdateOrderKind::musl, parameters.plastic, cells, rate));
+    bodies.push_back(make_body<Dim>(*transfer, order->remaps, parameters.plastic, cells, rate));
     std::vector<std::unique_ptr<BoundaryCondition<Dim>>> walls;
     const ReactionBook book = parameters.scheme->book;
     for (int d = 0; d < Dim; ++d) {
       const double length = cells * spacing;
       walls.push_back(std::make_unique<RigidWall<Dim>>(WallPlacement{d, false, 0.0}, WallMotion{},
                                                        WallGrip::slip, book));
-      walls.push_back(std::make_unique<RigidWall<Dim>>(
-          WallPlacement{d, true, length}, WallMotion{-rate * length, 0}, WallGrip::slip, book));
+      walls.push_back(std::make_unique<RigidWall<Dim>>(WallPlacement{d, true, length},
+                                                       WallMotion{d == 0 ? -rate * length : 0, 0},
+                                                       WallGrip::slip, book));
     }
-    typename UpdatedLagrangian<Dim>::Setup setup{std::move(transfer), make_update_order<Dim>(order),
-                                                 std::move(bodies)};
+    typename UpdatedLagrangian<Dim>::Setup setup{std::move(transfer), order, std::move(bodies)};
     setup.slots.conditions = std::move(walls);
     setup.mass_cut = 1e-24 * density * std::pow(spacing, Dim);
     return std::make_unique<UpdatedLagrangian<Dim>>(decomposition_, std::move(setup));
@@ -73,7 +70,7 @@ template <int Dim>
 std::unique_ptr<PressedBlock<Dim>> kept;
 
 template <int Dim>
-PressedBlock<Dim>& block_of(const Case& c, UpdateOrderKind order)
+PressedBlock<Dim>& block_of(const Case& c, OneOf<UpdateOrderRow> order)
 {
   if (!kept<Dim> || kept<Dim>->parameters != c || kept<Dim>->order != order) {
     kept<Dim>.reset();
@@ -85,12 +82,11 @@ PressedBlock<Dim>& block_of(const Case& c, UpdateOrderKind order)
 template <int Dim>
 void register_steps()
 {
-  for (const UpdateOrderKind order :
-       {UpdateOrderKind::musl, UpdateOrderKind::usf, UpdateOrderKind::usl})
+  for (const OneOf<UpdateOrderRow> order : all_of_list<UpdateOrderRow>())
     for_each_case([order](const Case& c) {
       if (unstable(c, order)) return;
       benchmark::RegisterBenchmark(
-          (dimension<Dim>() + "/step_" + order_names[int(order)] + '/' + name_of(c)).c_str(),
+          (dimension<Dim>() + "/step_" + std::string(order->keyword) + '/' + name_of(c)).c_str(),
           [order, c](benchmark::State& state) {
             PressedBlock<Dim>& block = block_of<Dim>(c, order);
             for (auto _ : state) block.step();
