@@ -232,10 +232,10 @@ Loads<Dim> loads_of(const scene::Scene& scene)
 }
 
 template <int Dim>
-ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrder<Dim>& order,
+ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrderRow& order,
                           const Law<Dim>& law, const Loads<Dim>& loads)
 {
-  std::vector<Column> motion = transfer.motion_columns(order.needs().remap);
+  std::vector<Column> motion = transfer.motion_columns(order.remaps);
   std::vector<std::string> zero_in_padding{"velocity",      "mass",           "affine_velocity",
                                            "grid_velocity", "initial_volume", "plastic_work"};
   for (const SurfaceMark<Dim>& mark : loads.marks()) {
@@ -252,7 +252,7 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
   Model<Dim> model;
   auto& setup = model.setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
-  setup.order = make_update_order<Dim>(scene.numerics.update_order->kind);
+  setup.order = scene.numerics.update_order;
   setup.slots.loads = loads_of<Dim>(scene);
   setup.mass_cut = 1e-24 * layout.largest_particle_mass;
   const Lattice<Dim> lattice = specimen.lattice(nearby(specimen.whole(), layout, decomposition));
@@ -291,9 +291,9 @@ template Model<3> make_model(const scene::Scene&, const Specimen<3>&, const Layo
                              const Decomposition<3>&);
 template Loads<2> loads_of<2>(const scene::Scene&);
 template Loads<3> loads_of<3>(const scene::Scene&);
-template ParticleStore empty_store(const Transfer<2>&, const UpdateOrder<2>&, const Law<2>&,
+template ParticleStore empty_store(const Transfer<2>&, const UpdateOrderRow&, const Law<2>&,
                                    const Loads<2>&);
-template ParticleStore empty_store(const Transfer<3>&, const UpdateOrder<3>&, const Law<3>&,
+template ParticleStore empty_store(const Transfer<3>&, const UpdateOrderRow&, const Law<3>&,
                                    const Loads<3>&);
 
 }  // namespace mpm

@@ -76,7 +76,7 @@ std::vector<std::string> left_out(const scene::Scene& scene, bool remaps)
 
 template <int Dim>
 double bytes_per_particle(const scene::Scene& scene, const Transfer<Dim>& transfer,
-                          const UpdateOrder<Dim>& order)
+                          const UpdateOrderRow& order)
 {
   int largest = 0;
   const Loads<Dim> loads = loads_of<Dim>(scene);
@@ -107,11 +107,9 @@ std::string plan_text(const Preparation<Dim>& preparation)
   double steps = std::ceil(layout.end_time / dt);
   if (scene.steps) steps = std::min(steps, double(*scene.steps));
   const auto transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
-  const auto order = make_update_order<Dim>(scene.numerics.update_order->kind);
-  const double per_particle = bytes_per_particle(scene, *transfer, *order);
-  typename NodeFields<Dim>::Needs needs = order->needs();
-  needs.load_force = !scene.loads.empty();
-  const double per_node = NodeFields<Dim>::bytes_per_node(needs);
+  const UpdateOrderRow& order = *scene.numerics.update_order;
+  const double per_particle = bytes_per_particle(scene, *transfer, order);
+  const double per_node = NodeFields<Dim>::bytes_per_node({order.remaps, !scene.loads.empty()});
   const double nodes = layout.geometry.nodes.template cast<double>().prod();
 
   std::string text;
@@ -147,7 +145,7 @@ std::string plan_text(const Preparation<Dim>& preparation)
   for (const scene::Load& load : scene.loads)
     line("load", load.kind->keyword + ": " + load.kind->help);
   std::string absent;
-  for (const std::string& what : left_out(scene, order->needs().remap))
+  for (const std::string& what : left_out(scene, order.remaps))
     absent += (absent.empty() ? "" : ", ") + what;
   line("left out", absent.empty() ? "nothing" : absent);
   line("time step", fmt::format("{:.4g} s (CFL {:.3g})", dt, layout.cfl));

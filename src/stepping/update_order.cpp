@@ -1,24 +1,19 @@
 #include <mpm/stepping/update_order.hpp>
-
-#include <stdexcept>
+#include <mpm/transfer/order_types.hpp>
 
 namespace mpm {
 
 template <int Dim>
-std::unique_ptr<UpdateOrder<Dim>> make_update_order(UpdateOrderKind kind)
+StepFunction<Dim> step_function(OneOf<UpdateOrderRow> order)
 {
-  switch (kind) {
-    case UpdateOrderKind::musl:
-      return make_musl<Dim>();
-    case UpdateOrderKind::usf:
-      return make_usf<Dim>();
-    case UpdateOrderKind::usl:
-      return make_usl<Dim>();
-  }
-  throw std::logic_error("an update order without steps");
+  StepFunction<Dim> function = nullptr;
+  for_each_type(OrderTypes{}, [&]<class Order>() {
+    if (order == Order::row.keyword) function = &Order::template step<Step<Dim>>;
+  });
+  return function;
 }
 
-template std::unique_ptr<UpdateOrder<2>> make_update_order(UpdateOrderKind);
-template std::unique_ptr<UpdateOrder<3>> make_update_order(UpdateOrderKind);
+template StepFunction<2> step_function(OneOf<UpdateOrderRow>);
+template StepFunction<3> step_function(OneOf<UpdateOrderRow>);
 
 }  // namespace mpm

@@ -8,7 +8,7 @@ namespace mpm {
 
 template <int Dim>
 UpdatedLagrangian<Dim>::UpdatedLagrangian(Decomposition<Dim> decomposition, Setup setup)
-    : setup_(std::move(setup))
+    : setup_(std::move(setup)), step_(step_function<Dim>(setup_.order))
 {
   connect(std::move(decomposition));
 }
@@ -17,8 +17,7 @@ template <int Dim>
 void UpdatedLagrangian<Dim>::connect(Decomposition<Dim> decomposition)
 {
   exchange_ = std::make_unique<Exchange<Dim>>(std::move(decomposition), *setup_.transfer);
-  typename NodeFields<Dim>::Needs needs = setup_.order->needs();
-  needs.load_force = !setup_.slots.loads.empty();
+  const typename NodeFields<Dim>::Needs needs{setup_.order->remaps, !setup_.slots.loads.empty()};
   int fields = 1;
   for (const Body<Dim>& body : setup_.bodies) fields = std::max(fields, body.field + 1);
   fields_.clear();
@@ -27,7 +26,7 @@ void UpdatedLagrangian<Dim>::connect(Decomposition<Dim> decomposition)
   sort_and_activate();
   Step<Dim> step = next_step();
   step.reset();
-  const bool with_force = setup_.order->begins_with_force();
+  const bool with_force = setup_.order->begins_with_force;
   for (Body<Dim>& body : setup_.bodies) {
     step.transfer.prime(body, grid(), step.fields_of(body), with_force);
     step.with_loads(body, 0, {});
@@ -54,7 +53,7 @@ template <int Dim>
 void UpdatedLagrangian<Dim>::step(double dt)
 {
   Step<Dim> step = next_step();
-  setup_.order->step(step, dt);
+  step_(step, dt);
   if (exchange_->sort_is_due()) sort_and_activate();
   for (const auto& transport : setup_.slots.transports)
     transport->advance(*exchange_, setup_.bodies, time_, dt);

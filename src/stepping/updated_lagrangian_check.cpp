@@ -59,7 +59,6 @@ void Agreed::archive(Archive& archive)
   archive.value("wave_speed", wave_speed);
   archive.value("busiest_work", busiest_work);
   archive.value("mean_work", mean_work);
-  archive.value("own_work", own_work);
   archive.value("most_particles", most_particles);
   archive.value("mean_particles", mean_particles);
 }
@@ -107,12 +106,6 @@ void UpdatedLagrangian<Dim>::visit_work(
 }
 
 template <int Dim>
-double UpdatedLagrangian<Dim>::own_work() const
-{
-  return this->particles() + cost_of_node * grid().active_nodes();
-}
-
-template <int Dim>
 void UpdatedLagrangian<Dim>::check()
 {
   if (checked_ == steps_) return;
@@ -122,14 +115,14 @@ void UpdatedLagrangian<Dim>::check()
     wave_speed = std::max(wave_speed, present_wave_speed(body));
   const auto& loss = exchange_->loss();
   const double particles = this->particles();
-  agreed_.own_work = own_work();
+  const double work = particles + cost_of_node * grid().active_nodes();
   // The largest of: speeds, work, particles, and minus the step of the first loss.
-  std::array<double, 5> largest{exchange_->largest_speed(), wave_speed, agreed_.own_work, particles,
+  std::array<double, 5> largest{exchange_->largest_speed(), wave_speed, work, particles,
                                 loss ? -double(loss->moment.step) : never};
   const MPI_Comm comm = decomposition().comm();
   largest_over_ranks(comm, largest);
   if (largest[4] > never) stop(GlobalIndex(-largest[4]));
-  std::array<double, 2> mean{agreed_.own_work, particles};
+  std::array<double, 2> mean{work, particles};
   sum_over_ranks(comm, mean);
   for (double& value : mean) value /= decomposition().ranks();
   agreed_.largest_speed = largest[0];
@@ -156,8 +149,6 @@ template void UpdatedLagrangian<2>::visit_work(
     const std::function<void(const IndexVec<2>&, double)>&) const;
 template void UpdatedLagrangian<3>::visit_work(
     const std::function<void(const IndexVec<3>&, double)>&) const;
-template double UpdatedLagrangian<2>::own_work() const;
-template double UpdatedLagrangian<3>::own_work() const;
 template void UpdatedLagrangian<2>::check();
 template void UpdatedLagrangian<3>::check();
 template void UpdatedLagrangian<2>::stop(GlobalIndex);

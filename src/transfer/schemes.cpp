@@ -1,3 +1,4 @@
+#include <mpm/transfer/order_types.hpp>
 #include <mpm/transfer/scheme_types.hpp>
 #include <mpm/transfer/schemes.hpp>
 
@@ -12,23 +13,7 @@ std::span<const SchemeRow> list_of<SchemeRow>()
 template <>
 std::span<const UpdateOrderRow> list_of<UpdateOrderRow>()
 {
-  static constexpr UpdateOrderRow rows[] = {
-      {.kind = UpdateOrderKind::musl,
-       .keyword = "musl",
-       .help = "stress after the forces, from re-mapped velocities",
-       .words = "MUSL",
-       .stable_cfl = nullptr},
-      {.kind = UpdateOrderKind::usf,
-       .keyword = "usf",
-       .help = "stress before the forces",
-       .words = "USF",
-       .stable_cfl = nullptr},
-      {.kind = UpdateOrderKind::usl,
-       .keyword = "usl",
-       .help = "stress after the forces, from the velocities that they changed",
-       .words = "USL",
-       .stable_cfl = &StableCfl::stress_last}};
-  return rows;
+  return rows_of<UpdateOrderRow>(OrderTypes{});
 }
 
 std::optional<double> stable_cfl(const ShapeRow& shape, const SchemeRow& scheme,

@@ -169,17 +169,17 @@ TEST_P(SavedRun, GoesOnWithTheSameBitsOnAPeriodicAxis)
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, SavedRun,
-                         ::testing::Values(Method{"gimp", "flip", UpdateOrderKind::musl},
-                                           Method{"quadratic", "apic", UpdateOrderKind::musl},
-                                           Method{"gimp", "flip", UpdateOrderKind::usf},
-                                           Method{"gimp", "flip", UpdateOrderKind::usl}),
+                         ::testing::Values(Method{"gimp", "flip", "musl"},
+                                           Method{"quadratic", "apic", "musl"},
+                                           Method{"gimp", "flip", "usf"},
+                                           Method{"gimp", "flip", "usl"}),
                          [](const auto& info) { return name_of(info.param); });
 
 TEST(SavedLoadBalance, MovesTheBordersAtTheSameStepsToTheSamePlaces)
 {
   const GridGeometry<2> grid = BlockRun::grid_of({50, 50});
   const auto make = [](const Ownership<2>& ownership) {
-    return BlockRun({MPI_COMM_WORLD, ownership}, {"gimp", "flip", UpdateOrderKind::musl},
+    return BlockRun({MPI_COMM_WORLD, ownership}, {"gimp", "flip", "musl"},
                     {{{4, 4}, {20, 20}, {speed, speed}}}, {});
   };
   const auto advance = [](BlockRun& run, LoadBalance<2>& balance, int steps) {
@@ -225,7 +225,7 @@ TEST(SavedLoadBalance, MovesTheBordersAtTheSameStepsToTheSamePlaces)
 TEST(SavedLoss, IsToldInTheSameWordsByTheRunThatLoadsIt)
 {
   const auto make = [] {
-    return BlockRun(MPI_COMM_WORLD, {0, 0}, {24, 20}, {"gimp", "flip", UpdateOrderKind::musl},
+    return BlockRun(MPI_COMM_WORLD, {0, 0}, {24, 20}, {"gimp", "flip", "musl"},
                     {{{12, 9}, {4, 3}, {2.5 * speed, 0}}}, {});
   };
   const auto words_of_step = [](BlockRun& run) -> std::string {
@@ -253,7 +253,7 @@ TEST(SavedLoss, IsToldInTheSameWordsByTheRunThatLoadsIt)
 
 TEST(SavedState, IsRefusedOnAnotherPartOfTheGridAndByOtherBodies)
 {
-  const Method musl{"gimp", "flip", UpdateOrderKind::musl};
+  const Method musl{"gimp", "flip", "musl"};
   const std::vector<Block> blocks{{{4, 4}, {5, 5}, {0, 0}}};
   const auto words_of_loading = [](MemoryArchive& archive, BlockRun other) -> std::string {
     archive.start_loading();

@@ -22,15 +22,14 @@ inline constexpr double density = 1000;        ///< kg/m^3
 struct Method {
   OneOf<ShapeRow> shape;
   OneOf<SchemeRow> scheme;
-  UpdateOrderKind order;
+  OneOf<UpdateOrderRow> order;
 };
 
 /// As a test's name.
 inline std::string name_of(const Method& m)
 {
-  constexpr const char* orders[] = {"Musl", "Usf", "Usl"};
-  return std::string(m.shape->keyword) + "_" + std::string(m.scheme->keyword) +
-         orders[int(m.order)];
+  return std::string(m.shape->keyword) + "_" + std::string(m.scheme->keyword) + "_" +
+         std::string(m.order->keyword);
 }
 
 struct Block {
@@ -115,16 +114,14 @@ class BlockRun {
       auto state = law->state_columns();
       bodies.push_back(
           {"block", int(bodies.size()), density, std::move(law),
-           ParticleStore(transfer->motion_columns(method.order == UpdateOrderKind::musl),
-                         std::move(state),
+           ParticleStore(transfer->motion_columns(method.order->remaps), std::move(state),
                          {"velocity", "mass", "affine_velocity", "grid_velocity", "initial_volume",
                           "plastic_work"})});
       bodies.back().field = block.field;
       fill(bodies.back(), block);
     }
     constexpr double volume = 0.25 * cell * cell;
-    auto order = make_update_order<2>(method.order);
-    UpdatedLagrangian<2>::Setup setup{std::move(transfer), std::move(order), std::move(bodies)};
+    UpdatedLagrangian<2>::Setup setup{std::move(transfer), method.order, std::move(bodies)};
     setup.slots.conditions = std::move(conditions);
     setup.mass_cut = 1e-12 * density * volume;
     return std::make_unique<UpdatedLagrangian<2>>(decomposition_, std::move(setup));

@@ -41,7 +41,7 @@ struct MeasuredRun {
     return {MPI_COMM_WORLD,
             {0, 0},
             {24, 16},
-            {"gimp", "flip", UpdateOrderKind::musl},
+            {"gimp", "flip", "musl"},
             {{{7, 4}, {9, 7}, {0, 0}, yield}, {{4, 4}, {3, 7}, {0, 0}}},
             std::move(walls)};
   }

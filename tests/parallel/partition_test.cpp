@@ -151,7 +151,7 @@ TEST(LoadBalance, BordersFollowTheWorkAndStayWhereNothingIsGained)
 {
   using namespace testing_blocks;
   const GridGeometry<2> grid = BlockRun::grid_of({70, 70});
-  BlockRun run({MPI_COMM_WORLD, grid, {0, 0}, {}, {}}, {"gimp", "flip", UpdateOrderKind::musl},
+  BlockRun run({MPI_COMM_WORLD, grid, {0, 0}, {}, {}}, {"gimp", "flip", "musl"},
                {{{4, 4}, {30, 30}, {1, 1}}}, {});
   run.stepper().step(1e-9);
   run.stepper().check();

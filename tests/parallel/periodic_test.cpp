@@ -78,7 +78,7 @@ std::unique_ptr<UpdatedLagrangian<Dim>> stepper(
 {
   typename UpdatedLagrangian<Dim>::Setup setup;
   setup.transfer = make_transfer<Dim>(shape, "flip", 2);
-  setup.order = make_musl<Dim>();
+  setup.order = "musl";
   setup.bodies.push_back(filled(decomposition, *setup.transfer, cells, speed));
   setup.mass_cut = 1e-20;
   return std::make_unique<UpdatedLagrangian<Dim>>(decomposition, std::move(setup));

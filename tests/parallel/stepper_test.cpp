@@ -110,15 +110,12 @@ TEST_P(FlyingBlock, IsAtTheSamePlaceOnPartsOfAnyShape)
 // Linear functions with an affine field are absent: at a free edge nodes of vanishing mass keep
 // their velocity in the affine field, and no time step is stable.
 INSTANTIATE_TEST_SUITE_P(Methods, FlyingBlock,
-                         ::testing::Values(Method{linear, flip, UpdateOrderKind::musl},
-                                           Method{gimp, flip, UpdateOrderKind::musl},
-                                           Method{quadratic, flip, UpdateOrderKind::musl},
-                                           Method{linear, pic, UpdateOrderKind::musl},
-                                           Method{gimp, tpic, UpdateOrderKind::musl},
-                                           Method{quadratic, tpic, UpdateOrderKind::musl},
-                                           Method{quadratic, apic, UpdateOrderKind::usf},
-                                           Method{gimp, pic, UpdateOrderKind::usf},
-                                           Method{gimp, flip, UpdateOrderKind::usl}),
+                         ::testing::Values(Method{linear, flip, "musl"}, Method{gimp, flip, "musl"},
+                                           Method{quadratic, flip, "musl"},
+                                           Method{linear, pic, "musl"}, Method{gimp, tpic, "musl"},
+                                           Method{quadratic, tpic, "musl"},
+                                           Method{quadratic, apic, "usf"}, Method{gimp, pic, "usf"},
+                                           Method{gimp, flip, "usl"}),
                          [](const auto& info) { return name_of(info.param); });
 
 /// A piston from the right, three walls, and a second block that flies into the first.
@@ -191,11 +188,11 @@ TEST_P(PressedBlocks, AreAtTheSamePlacesWhileTheBordersMoveEveryFewSteps)
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, PressedBlocks,
-                         ::testing::Values(Method{gimp, flip, UpdateOrderKind::musl},
-                                           Method{quadratic, tpic, UpdateOrderKind::musl},
-                                           Method{gimp, flip, UpdateOrderKind::usf},
-                                           Method{quadratic, flip, UpdateOrderKind::usf},
-                                           Method{gimp, flip, UpdateOrderKind::usl}),
+                         ::testing::Values(Method{gimp, flip, "musl"},
+                                           Method{quadratic, tpic, "musl"},
+                                           Method{gimp, flip, "usf"},
+                                           Method{quadratic, flip, "usf"},
+                                           Method{gimp, flip, "usl"}),
                          [](const auto& info) { return name_of(info.param); });
 
 /// Steps until the run stops; its words. Collective.
@@ -212,7 +209,7 @@ std::string words_of_failure(BlockRun& run, double speed)
 TEST(LostParticle, StopsEveryRankInTheSameStepWithTheSameWords)
 {
   constexpr double speed = 150;
-  BlockRun run(MPI_COMM_WORLD, two_rows(), {24, 20}, {gimp, flip, UpdateOrderKind::musl},
+  BlockRun run(MPI_COMM_WORLD, two_rows(), {24, 20}, {gimp, flip, "musl"},
                {{{12, 9}, {4, 3}, {speed, 0}}}, {});
   const std::string words = words_of_failure(run, speed);
   EXPECT_THAT(words, HasSubstr("left the grid"));
@@ -231,7 +228,7 @@ TEST(LostParticle, StopsEveryRankInTheSameStepWithTheSameWords)
 
 TEST(LostParticle, StepOfMoreThanACellIsNamed)
 {
-  BlockRun run(MPI_COMM_WORLD, two_rows(), {40, 20}, {gimp, flip, UpdateOrderKind::musl},
+  BlockRun run(MPI_COMM_WORLD, two_rows(), {40, 20}, {gimp, flip, "musl"},
                {{{4, 4}, {30, 10}, {1000, 1000}}}, {});
   try {
     run.stepper().step(2.5 * cell / 1000);
@@ -245,7 +242,7 @@ TEST(LostParticle, StepOfMoreThanACellIsNamed)
 
 TEST(LostParticle, PositionThatIsNoNumberIsNamed)
 {
-  BlockRun run(MPI_COMM_WORLD, two_rows(), {24, 20}, {gimp, flip, UpdateOrderKind::musl},
+  BlockRun run(MPI_COMM_WORLD, two_rows(), {24, 20}, {gimp, flip, "musl"},
                {{{5, 5}, {8, 8}, {std::nan(""), 0}}}, {});
   EXPECT_THAT(words_of_failure(run, 1), HasSubstr("is no longer a number"));
 }

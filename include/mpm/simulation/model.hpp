@@ -45,7 +45,7 @@ Loads<Dim> loads_of(const scene::Scene& scene);
 
 /// Columns of the particles of a law, with those of loads on surfaces.
 template <int Dim>
-ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrder<Dim>& order,
+ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrderRow& order,
                           const Law<Dim>& law, const Loads<Dim>& loads);
 
 }  // namespace mpm

@@ -16,8 +16,8 @@ namespace mpm {
 struct Agreed {
   double largest_speed = 0;  ///< m/s, component of a particle's grid velocity in the last step
   double wave_speed = 0;     ///< m/s, of the fastest wave in the particles as they are
-  /// Counted work of a step (in particles): of the busiest rank, the mean, and this rank's.
-  double busiest_work = 0, mean_work = 0, own_work = 0;
+  /// Counted work of a step (in particles): of the busiest rank, and the mean.
+  double busiest_work = 0, mean_work = 0;
   GlobalIndex most_particles = 0;
   double mean_particles = 0;
 

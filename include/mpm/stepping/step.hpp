@@ -11,6 +11,8 @@ namespace mpm {
 /// Everything that a step works on. A body moves in the velocity field that it names.
 template <int Dim>
 struct Step {
+  using Fields = NodeFields<Dim>;
+
   Exchange<Dim>& exchange;
   const Transfer<Dim>& transfer;
   std::vector<Body<Dim>>& bodies;

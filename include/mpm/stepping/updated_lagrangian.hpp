@@ -17,7 +17,7 @@ class UpdatedLagrangian final : public Formulation<Dim> {
  public:
   struct Setup {
     std::unique_ptr<Transfer<Dim>> transfer;
-    std::unique_ptr<UpdateOrder<Dim>> order;
+    OneOf<UpdateOrderRow> order;
     std::vector<Body<Dim>> bodies;
     Slots<Dim> slots{};
     double mass_cut = 0;  ///< kg; nodes with less are not active
@@ -33,7 +33,7 @@ class UpdatedLagrangian final : public Formulation<Dim> {
   GlobalIndex steps() const override { return steps_; }
   const std::vector<Body<Dim>>& bodies() const override { return setup_.bodies; }
   const Decomposition<Dim>& decomposition() const override { return exchange_->decomposition(); }
-  double stress_moment() const override { return setup_.order->stress_moment(); }
+  double stress_moment() const override { return setup_.order->stress_moment; }
   Slots<Dim>& slots() override { return setup_.slots; }
   double largest_step() const override { return setup_.slots.largest_step(); }
 
@@ -53,11 +53,11 @@ class UpdatedLagrangian final : public Formulation<Dim> {
   void connect(Decomposition<Dim> decomposition);
   void sort_and_activate();
   Step<Dim> next_step();
-  double own_work() const;
   Counters counters_of_exchange() const;
   [[noreturn]] void stop(GlobalIndex first_loss);
 
   Setup setup_;
+  StepFunction<Dim> step_;
   std::unique_ptr<Exchange<Dim>> exchange_;
   std::vector<NodeFields<Dim>> fields_;
   double time_ = 0;

@@ -1,0 +1,36 @@
+#pragma once
+#include <mpm/transfer/order.hpp>
+
+namespace mpm {
+
+/// Modified update stress last: the stress sees the particles' new velocities, mapped back.
+struct Musl {
+  static constexpr UpdateOrderRow row{.keyword = "musl",
+                                      .help = "stress after the forces, from re-mapped velocities",
+                                      .words = "MUSL",
+                                      .remaps = true};
+
+  template <class Step>
+  static void step(Step& s, double dt)
+  {
+    using Fields = typename Step::Fields;
+    s.update_velocity(dt);  // v_i = ((mv)_i + dt f_i) / m_i
+    for (Fields& field : s.fields) field.reset_remap(s.grid().runs());
+    s.exchange.pass_and_sum(s.bodies, s.columns({&Fields::remap_column}), [&](const auto& part) {
+      s.transfer.musl_velocity(part, s.grid(), s.fields_of(part));  // v_p, and back: (mv)_i
+    });
+    for (Fields& field : s.fields) field.gradient_from_remap(s.grid().runs());
+    s.constrain_gradient(dt);
+
+    s.reset();
+    s.exchange.move_and_sum(
+        s.bodies, s.sums({&Fields::mass_column, &Fields::momentum_force_column}), s.moment, dt,
+        [&](const auto& part, const auto& bounds) {
+          // sigma_p, x_p; m_i, (mv)_i, f_i
+          return s.with_loads(
+              part, dt, s.transfer.musl_stress(part, s.grid(), s.fields_of(part), dt, bounds));
+        });
+  }
+};
+
+}  // namespace mpm
