@@ -23,7 +23,7 @@ TEST(LawList, ALawThatIsNotThereInPlaneOrSpaceIsRefusedWithThoseThatAre)
   const OneOf<LawRow> oriented = "transversely_isotropic", rigid = "rigid";
   EXPECT_THAT(refusal([&] { make_law<3>(*oriented, {}, PlaneAssumption::strain); }),
               HasSubstr("law transversely_isotropic is there in the plane only. Use one of: "
-                        "isotropic, von_mises"));
+                        "isotropic, neo_hookean, von_mises"));
   EXPECT_THAT(refusal([&] { make_law<2>(*rigid, {}, PlaneAssumption::strain); }),
               HasSubstr("law rigid has no stress. Use one of: isotropic, transversely_isotropic"));
   LawRow space_only = *OneOf<LawRow>("isotropic");
