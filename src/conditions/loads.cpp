@@ -20,6 +20,13 @@ std::vector<SurfaceMark<Dim>> Loads<Dim>::marks() const
 }
 
 template <int Dim>
+bool Loads<Dim>::need_initial_position() const
+{
+  return std::ranges::any_of(loads_,
+                             [](const auto& load) { return load->needs_initial_position(); });
+}
+
+template <int Dim>
 void Loads<Dim>::scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfer,
                          const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time) const
 {

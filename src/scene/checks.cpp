@@ -8,7 +8,8 @@ void Checked::refuse(const std::string& path, const std::string& reason,
                      const std::string& remedy) const
 {
   const Node* node = find(root, path);
-  if (node != nullptr && sound(path)) Given{*node, path, problems}.refuse(reason, remedy);
+  if (node != nullptr && sound(path))
+    Given{*node, path, problems, scene.definitions}.refuse(reason, remedy);
 }
 
 void Checked::miss(const std::string& path, const std::string& reason,

@@ -88,7 +88,7 @@ void write_input_reference(std::ostream& out)
   write_words<SideRow>(out, "sides");
   write_sections<MovingSide, Load>(out);
   write_words<LoadRow>(out, "kind");
-  write_sections<OutputKeys>(out);
+  write_sections<ExactSolution, OutputKeys>(out);
   write_section<SnapshotKeys>(out, snapshots_section);
 }
 

@@ -44,7 +44,13 @@ bool Given::refuse(const std::string& reason, const std::string& remedy) const
 
 Given Given::item(std::size_t index) const
 {
-  return {node.items[index], fmt::format("{}[{}]", path, index), problems};
+  return {node.items[index], fmt::format("{}[{}]", path, index), problems,
+          definitions};
+}
+
+Given Given::entry(const Entry& entry) const
+{
+  return {entry.value, path.empty() ? entry.key : path + "." + entry.key, problems, definitions};
 }
 
 }  // namespace mpm::scene

@@ -72,6 +72,18 @@ int dimensions_of(const Node& root)
   return in_space || find(root, "specimen.depth") != nullptr ? 3 : 2;
 }
 
+/// Known before the formulas that use them; what is wrong with them is said where they are read.
+Definitions definitions_of(const Node& root, int dimensions)
+{
+  Definitions definitions;
+  if (const Node* node = find(root, "definitions")) {
+    Problems said_elsewhere;
+    Value<Definitions>::read({*node, "", said_elsewhere, {}}, {.dimensions = dimensions},
+                             definitions);
+  }
+  return definitions;
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides)
@@ -83,7 +95,8 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   SceneKeys keys;
   keys.dimensions = dimensions_of(root);
   Problems problems;
-  read_map(Given{root, "", problems}, keys, keys.dimensions);
+  const Definitions definitions = definitions_of(root, keys.dimensions);
+  read_map(Given{root, "", problems, definitions}, keys, keys.dimensions);
   if (auto& micrograph = keys.specimen.micrograph) {
     const auto folder = std::filesystem::absolute(file).parent_path();
     micrograph->file = (folder / micrograph->file).lexically_normal();

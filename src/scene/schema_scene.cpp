@@ -50,7 +50,12 @@ const std::vector<Parameter<SceneKeys>>& parameters<SceneKeys>()
       motion<FreeMotion>(
           "free_motion",
           "motion from initial velocities, loads and moving sides, without a piston"),
+      member<S>("definitions", &S::definitions, {.default_text = "none"},
+                "names that formulas may use, each also in the ones below it"),
       member<S>("loads", &S::loads, {.default_text = "none"}, "forces from outside"),
+      member<S>("exact_solution", &S::exact_solution, {.default_text = "none"},
+                "what the run is compared with; its errors are in summary.json and "
+                "exact_solution.csv"),
       member<S>("steps", &S::steps, {.bound = at_least(1), .default_text = "until the end"},
                 "end after this many time steps"),
       member<S>("output", &S::output_keys, {.default_text = "see there"}, "what is written"),

@@ -68,7 +68,7 @@ struct Value<ThresholdKey> {
       const Entry* entry = given.node.find(density_key);
       if (entry == nullptr) return given.refuse("needs the key " + density_key);
       key.rule = ThresholdRule::target_relative_density;
-      return Value<double>::read({entry->value, joined(given.path, density_key), given.problems},
+      return Value<double>::read(given.entry(*entry),
                                  {Quantity::fraction, relative_density}, key.value);
     }
     key.rule = ThresholdRule::value;

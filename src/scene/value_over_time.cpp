@@ -63,7 +63,7 @@ bool Value<Formula>::read(const Given& given, const Rule& rule, Formula& value)
     no_measure = error;
   }
   try {
-    value = Formula(text, rule.dimensions);
+    value = Formula(text, rule.dimensions, given.definitions);
     return true;
   } catch (const FormulaError& error) {
     // `10 mm`: a number with a unit, though with a wrong one.
@@ -85,6 +85,43 @@ std::string Value<Formula>::describe(const Rule& rule)
 {
   return fmt::format("a formula in SI units, or {}, e.g. `{}`", noun(rule.quantity),
                      example(rule.quantity));
+}
+
+bool Value<Definitions>::read(const Given& given, const Rule& rule, Definitions& definitions)
+{
+  if (given.node.kind != Node::Kind::map)
+    return given.refuse("must be a map of names to formulas", "Write e.g. {c: sqrt(2e9/1500)}");
+  bool good = true;
+  definitions.clear();
+  for (const Entry& entry : given.node.entries) {
+    const Given value = given.entry(entry);
+    if (!is_scalar(value, "must be a formula")) {
+      good = false;
+      continue;
+    }
+    try {
+      check_name({entry.key, ""}, definitions);
+      const Formula sound(entry.value.scalar, rule.dimensions, definitions);
+      definitions.push_back({entry.key, entry.value.scalar});
+    } catch (const FormulaError& error) {
+      good = value.refuse(error.what(), error.remedy());
+    }
+  }
+  return good;
+}
+
+Node Value<Definitions>::write(const Definitions& definitions, const Rule&)
+{
+  Node node;
+  node.kind = definitions.empty() ? Node::Kind::nothing : Node::Kind::map;
+  for (const Definition& definition : definitions)
+    node.entries.push_back({definition.name, {}, Node::of_text(definition.text)});
+  return node;
+}
+
+std::string Value<Definitions>::describe(const Rule&)
+{
+  return "a map of names to formulas in SI units, e.g. `{c: sqrt(2e9/1500)}`";
 }
 
 bool Value<TimeTable>::read(const Given& given, const Rule& rule, TimeTable& table)

@@ -27,7 +27,8 @@ class BodyFiller {
         decomposition_(decomposition),
         position_(body.particles.motion().find("position")),
         velocity_(body.particles.motion().find("velocity")),
-        mass_(body.particles.motion().find("mass"))
+        mass_(body.particles.motion().find("mass")),
+        initial_position_(body.particles.motion().find("initial_position"))
   {
   }
 
@@ -52,6 +53,7 @@ class BodyFiller {
     for (int d = 0; d < Dim; ++d) {
       motion(position_ + d, p) = place[std::size_t(d)];
       motion(velocity_ + d, p) = velocity[std::size_t(d)];
+      if (initial_position_ >= 0) motion(initial_position_ + d, p) = place[std::size_t(d)];
     }
     motion(mass_, p) = body_.density * layout_.particle_volume;
     body_.particles.state()(0, p) = layout_.particle_volume;
@@ -62,7 +64,7 @@ class BodyFiller {
   Body<Dim>& body_;
   const Layout<Dim>& layout_;
   const Decomposition<Dim>& decomposition_;
-  int position_, velocity_, mass_;
+  int position_, velocity_, mass_, initial_position_;
 };
 
 /// The part of a box of locations outside of which this rank has no cells.
@@ -81,7 +83,7 @@ Body<Dim> empty_body(const scene::Material& material, int index, const scene::Sc
                      const typename UpdatedLagrangian<Dim>::Setup& setup)
 {
   auto law = law_of<Dim>(material, scene);
-  ParticleStore particles = empty_store(*setup.transfer, *setup.order, *law, setup.slots.loads);
+  ParticleStore particles = empty_store(scene, *setup.transfer, *law, setup.slots.loads);
   return {material.name, index, material.density(), std::move(law), std::move(particles)};
 }
 
@@ -90,11 +92,13 @@ void fill_body(Body<Dim>& body, const scene::Scene& scene, const Lattice<Dim>& l
                const Layout<Dim>& layout, const Decomposition<Dim>& decomposition)
 {
   BodyFiller<Dim> filler(body, layout, decomposition);
+  // Velocities stand before or after the stresses of t = 0 (leap-frog).
+  const double moment = -scene.numerics.update_order->stress_moment * layout.time_step().first();
   const auto velocity_of = [&](const IndexVec<Dim>& at, int shape) {
     scene::PerAxis<double> velocity{};
     if (const auto& formulas = scene.specimen.initial_velocity)
       for (std::size_t d = 0; d < std::size_t(Dim); ++d)
-        velocity[d] = (*formulas)[d](filler.place_of(at), 0);
+        velocity[d] = (*formulas)[d](filler.place_of(at), moment);
     else if (shape >= 0)
       velocity = scene.specimen.shapes[std::size_t(shape)].velocity;
     return velocity;
@@ -232,10 +236,12 @@ Loads<Dim> loads_of(const scene::Scene& scene)
 }
 
 template <int Dim>
-ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrderRow& order,
+ParticleStore empty_store(const scene::Scene& scene, const Transfer<Dim>& transfer,
                           const Law<Dim>& law, const Loads<Dim>& loads)
 {
-  std::vector<Column> motion = transfer.motion_columns(order.remaps);
+  std::vector<Column> motion = transfer.motion_columns(scene.numerics.update_order->remaps);
+  if (scene.exact_solution || loads.need_initial_position())
+    motion.push_back({"initial_position", Dim, "m"});
   std::vector<std::string> zero_in_padding{"velocity",      "mass",           "affine_velocity",
                                            "grid_velocity", "initial_volume", "plastic_work"};
   for (const SurfaceMark<Dim>& mark : loads.marks()) {
@@ -291,9 +297,9 @@ template Model<3> make_model(const scene::Scene&, const Specimen<3>&, const Layo
                              const Decomposition<3>&);
 template Loads<2> loads_of<2>(const scene::Scene&);
 template Loads<3> loads_of<3>(const scene::Scene&);
-template ParticleStore empty_store(const Transfer<2>&, const UpdateOrderRow&, const Law<2>&,
+template ParticleStore empty_store(const scene::Scene&, const Transfer<2>&, const Law<2>&,
                                    const Loads<2>&);
-template ParticleStore empty_store(const Transfer<3>&, const UpdateOrderRow&, const Law<3>&,
+template ParticleStore empty_store(const scene::Scene&, const Transfer<3>&, const Law<3>&,
                                    const Loads<3>&);
 
 }  // namespace mpm

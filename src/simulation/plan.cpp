@@ -75,8 +75,7 @@ std::vector<std::string> left_out(const scene::Scene& scene, bool remaps)
 }
 
 template <int Dim>
-double bytes_per_particle(const scene::Scene& scene, const Transfer<Dim>& transfer,
-                          const UpdateOrderRow& order)
+double bytes_per_particle(const scene::Scene& scene, const Transfer<Dim>& transfer)
 {
   int largest = 0;
   const Loads<Dim> loads = loads_of<Dim>(scene);
@@ -84,7 +83,7 @@ double bytes_per_particle(const scene::Scene& scene, const Transfer<Dim>& transf
     if (material.law->deformable())
       largest = std::max(
           largest,
-          empty_store(transfer, order, *law_of<Dim>(material, scene), loads).packed_size());
+          empty_store(scene, transfer, *law_of<Dim>(material, scene), loads).packed_size());
   return sizeof(double) * double(largest);  // the id with the columns
 }
 
@@ -101,14 +100,12 @@ std::string plan_text(const Preparation<Dim>& preparation)
   for (std::size_t k = 0; k < scene.materials.size(); ++k)
     if (scene.materials[k].law->deformable())
       particles += double(specimen.particles_of_material()[k]);
-  const double dt = TimeStep(layout.cfl, layout.geometry.smallest_spacing(), layout.wave_speed,
-                             layout.largest_speed)
-                        .first();
+  const double dt = layout.time_step().first();
   double steps = std::ceil(layout.end_time / dt);
   if (scene.steps) steps = std::min(steps, double(*scene.steps));
   const auto transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
   const UpdateOrderRow& order = *scene.numerics.update_order;
-  const double per_particle = bytes_per_particle(scene, *transfer, order);
+  const double per_particle = bytes_per_particle(scene, *transfer);
   const double per_node = NodeFields<Dim>::bytes_per_node({order.remaps, !scene.loads.empty()});
   const double nodes = layout.geometry.nodes.template cast<double>().prod();
 

@@ -86,8 +86,7 @@ class Run {
         layout_(preparation.layout),
         observers_(observers),
         model_(make_model(scene_, preparation.specimen, layout_, decomposition)),
-        time_step_(layout_.cfl, layout_.geometry.smallest_spacing(), layout_.wave_speed,
-                   layout_.largest_speed),
+        time_step_(layout_.time_step()),
         stepper_(decomposition, std::move(model_.setup)),
         balance_(partition_rules<Dim>(scene_), scene_.numerics.repartition_interval),
         history_(stepper_, model_.apparatus)

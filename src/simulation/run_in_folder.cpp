@@ -6,6 +6,7 @@
 #include <mpm/output/summary.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/scene/reader.hpp>
+#include <mpm/simulation/exact_solution.hpp>
 #include <mpm/simulation/progress.hpp>
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/snapshots.hpp>
@@ -112,7 +113,7 @@ void describe_curve(const analysis::CompressionProperties& found, output::Summar
 
 template <int Dim>
 void write_summary(const Preparation<Dim>& preparation, const RunResult& result,
-                   const std::filesystem::path& file)
+                   const ExactSolution<Dim>& exact, const std::filesystem::path& file)
 {
   output::Summary summary;
   describe(preparation, summary);
@@ -137,6 +138,7 @@ void write_summary(const Preparation<Dim>& preparation, const RunResult& result,
     describe_curve(*result.properties, summary);
     summary.set("deepest_behind_piston", result.deepest_behind_piston);
   }
+  exact.describe(summary);
   for (const auto& [what, version] : provenance()) summary.section("provenance").set(what, version);
   summary.section("provenance").set("scene", preparation.scene.file.string());
   summary.write(file);
@@ -180,11 +182,13 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const std::filesyst
   HistoryWriter<Dim> history(comm, folder);
   Snapshots<Dim> snapshots(preparation, folder);
   ProgressWriter<Dim> progress(comm);
-  const std::array<Observer<Dim>*, 3> observers{&history, &progress, &snapshots};
+  ExactSolution<Dim> exact(preparation, folder);
+  const std::array<Observer<Dim>*, 4> observers{&history, &progress, &snapshots, &exact};
   const RunResult result = run<Dim>(preparation, observers);
   on_rank_zero(comm, [&] {
-    write_summary(preparation, result, folder / "summary.json");
+    write_summary(preparation, result, exact, folder / "summary.json");
     if (result.properties) print(*result.properties);
+    exact.print();
     fmt::print(
         "{} steps in {:.1f} s, {:.1f} ns per particle and step, energy error {:.2f} %\n"
         "results in {}\n",

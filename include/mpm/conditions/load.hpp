@@ -31,6 +31,8 @@ class Load {
   virtual ~Load() = default;
 
   virtual bool acts_on_particles() const = 0;
+  /// Whether particles must know where they were at t = 0: column `initial_position`.
+  virtual bool needs_initial_position() const { return false; }
   virtual std::optional<SurfaceMark<Dim>> mark() const { return std::nullopt; }
   /// Adds the force (N) in the step from `time` to `time + dt` to the load force of every active
   /// node. Nodes hold their whole mass and momentum, on each rank that reaches them.

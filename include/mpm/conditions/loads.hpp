@@ -19,6 +19,7 @@ class Loads {
   bool empty() const { return loads_.empty(); }
   bool act_on_particles() const { return on_particles_; }
   std::vector<SurfaceMark<Dim>> marks() const;
+  bool need_initial_position() const;
 
   /// P2G of the forces on particles: a partial sum, as other node values.
   void scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfer,

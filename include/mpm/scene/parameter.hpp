@@ -185,7 +185,7 @@ bool read_map(const Given& given, Owner& owner, int dimensions)
     if (!applies && other != rows.end()) continue;
 
     if (const Entry* entry = given.node.find(row.key)) {
-      const Given value{entry->value, joined(given.path, row.key), given.problems};
+      const Given value = given.entry(*entry);
       if (applies) {
         const bool read = row.read(value, owner, dimensions);
         if (!read && row.decides) decided = false;

@@ -1,6 +1,7 @@
 #pragma once
 /// Everything wrong with a scene, collected so that one run reports it all.
 
+#include <mpm/core/formula.hpp>
 #include <mpm/scene/document.hpp>
 
 #include <string>
@@ -33,10 +34,12 @@ struct Given {
   const Node& node;
   std::string path;
   Problems& problems;
+  const Definitions& definitions;  ///< that formulas may use
 
   /// `PATH is VALUE (REASON). REMEDY.`; returns false, so that a reader can return it.
   bool refuse(const std::string& reason, const std::string& remedy = "") const;
   Given item(std::size_t index) const;
+  Given entry(const Entry& entry) const;
 };
 
 }  // namespace mpm::scene

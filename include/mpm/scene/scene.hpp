@@ -180,6 +180,16 @@ enum class Field {
   rank
 };
 
+/// What the run is compared with, line by line of the history. All formulas may use the place at
+/// t = 0 (X, Y, Z), which is what they are usually written in.
+struct ExactSolution {
+  std::optional<PerAxis<Formula>> displacement;  ///< m
+  std::optional<PerAxis<Formula>> velocity;      ///< m/s
+  /// Cauchy stress, Pa, by component.
+  std::optional<Formula> stress_xx, stress_yy, stress_zz, stress_xy, stress_yz, stress_xz;
+  bool operator==(const ExactSolution&) const = default;
+};
+
 struct Output {
   int history_lines = 600;
   std::vector<double> snapshot_strains;                              ///< with a piston
@@ -200,6 +210,8 @@ struct Scene {
   Numerics numerics;
   std::variant<Loading, FreeMotion> motion;
   std::vector<Load> loads;
+  Definitions definitions;
+  std::optional<ExactSolution> exact_solution;
   std::optional<long> steps;  ///< end after this many steps (benchmarks)
   Output output;
   bool operator==(const Scene&) const = default;

@@ -52,6 +52,8 @@ inline constexpr std::string_view section<MovingSide> = "moving side";
 template <>
 inline constexpr std::string_view section<Load> = "load";
 template <>
+inline constexpr std::string_view section<ExactSolution> = "exact solution";
+template <>
 inline constexpr std::string_view section<OutputKeys> = "output";
 inline constexpr std::string_view snapshots_section = "snapshots";
 
@@ -81,6 +83,8 @@ template <>
 const std::vector<Parameter<MovingSide>>& parameters<MovingSide>();
 template <>
 const std::vector<Parameter<Load>>& parameters<Load>();
+template <>
+const std::vector<Parameter<ExactSolution>>& parameters<ExactSolution>();
 template <>
 const std::vector<Parameter<OutputKeys>>& parameters<OutputKeys>();
 template <>

@@ -117,6 +117,14 @@ struct Value<Formula> {
   static std::string describe(const Rule& rule);
 };
 
+/// A map of names to texts.
+template <>
+struct Value<Definitions> {
+  static bool read(const Given& given, const Rule& rule, Definitions& definitions);
+  static Node write(const Definitions& definitions, const Rule& rule);
+  static std::string describe(const Rule& rule);
+};
+
 // Tables: at least two entries, times ascending.
 template <>
 struct Value<TimeTable> {

@@ -6,6 +6,7 @@
 #include <mpm/materials/laws.hpp>
 #include <mpm/micrograph/specimen.hpp>
 #include <mpm/scene/scene.hpp>
+#include <mpm/stepping/time_step.hpp>
 
 #include <array>
 #include <optional>
@@ -34,6 +35,10 @@ struct Layout {
   };
   std::optional<LoadCellBox> load_cell;
 
+  TimeStep time_step() const
+  {
+    return {cfl, geometry.smallest_spacing(), wave_speed, largest_speed};
+  }
   /// Cell along an axis of a location counted from the specimen's lower corner.
   LocalIndex cell_of_location(LocalIndex location, int axis) const
   {

@@ -43,9 +43,9 @@ Model<Dim> make_model(const scene::Scene& scene, const micrograph::Specimen<Dim>
 template <int Dim>
 Loads<Dim> loads_of(const scene::Scene& scene);
 
-/// Columns of the particles of a law, with those of loads on surfaces.
+/// Columns of the particles of a law, with those that loads and the exact solution need.
 template <int Dim>
-ParticleStore empty_store(const Transfer<Dim>& transfer, const UpdateOrderRow& order,
+ParticleStore empty_store(const scene::Scene& scene, const Transfer<Dim>& transfer,
                           const Law<Dim>& law, const Loads<Dim>& loads);
 
 }  // namespace mpm

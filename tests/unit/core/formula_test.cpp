@@ -67,5 +67,46 @@ TEST(Formula, TextsThatAreNoneAreRefusedWithTheParsersReasonAndARemedy)
   EXPECT_THAT(refusal("x, y", 2), HasSubstr("is no formula: it has several values"));
 }
 
+TEST(Formula, TellsThePlaceNowFromThePlaceAtTheStart)
+{
+  const Formula moved("x - X + 10*(Z - z)", 3), now("x + y + z", 3);
+  const std::array<double, 3> place{3, 4, 5}, start{1, 4, 7};
+  EXPECT_EQ(moved(place, start, 0), 2 + 20);
+  EXPECT_EQ(moved(place, 0), 0) << "where nothing has moved both are the same";
+  EXPECT_TRUE(moved.uses_initial_place());
+  EXPECT_FALSE(now.uses_initial_place());
+}
+
+TEST(Formula, UsesDefinitionsAndThroughThemThoseBefore)
+{
+  const Definitions names{{"E", "2e6"},        {"c", "sqrt(E/2)"}, {"unused", "1/0"},
+                          {"wave", "x - c*t"}, {"start", "X + c"}, {"both", "wave^2 + c"}};
+  const Formula formula("both + wave", 2, names);
+  for (const double t : {0.0, 1e-3, 0.7})
+    for (const double x : {-1.0, 4.0}) {
+      const double wave = x - 1000 * t;
+      EXPECT_EQ(formula(std::array{x, 9.0}, t), wave * wave + 1000 + wave);
+    }
+  EXPECT_EQ(Formula("c", 2, names)(std::array{1.0, 1.0}, 1), 1000);
+  EXPECT_TRUE(Formula("start", 2, names).uses_initial_place());
+  EXPECT_FALSE(formula.uses_initial_place());
+}
+
+TEST(Formula, ADefinitionSeesOnlyThoseBeforeIt)
+{
+  const Definitions names{{"a", "b"}, {"b", "1"}};
+  EXPECT_THROW(Formula("a", 2, names), FormulaError);
+  EXPECT_EQ(Formula("b", 2, names)(std::array{0.0, 0.0}, 0), 1);
+}
+
+TEST(Formula, NamesThatMeanSomethingAlreadyAreRefused)
+{
+  const Definitions others{{"taken", "1"}};
+  for (const char* name : {"x", "Z", "t", "pi", "sin", "taken", "2x", "a b", "", "a-b"})
+    EXPECT_THROW(check_name({name, ""}, others), FormulaError) << name;
+  for (const char* name : {"E", "c_0", "x1", "Taken", "_a"})
+    EXPECT_NO_THROW(check_name({name, ""}, others)) << name;
+}
+
 }  // namespace
 }  // namespace mpm

@@ -15,8 +15,8 @@ TEST_F(InputErrors, UnknownKeys)
               ElementsAre("a.yaml:7:3: unknown key 'sped' (did you mean 'speed'?)",
                           "a.yaml:8:1: unknown key 'stepps' (did you mean 'steps'?)",
                           "a.yaml:9:1: unknown key 'colour' (known: title, name, material, "
-                          "materials, specimen, grid, numerics, loading, free_motion, loads, "
-                          "steps, output)"));
+                          "materials, specimen, grid, numerics, loading, free_motion, definitions, "
+                          "loads, exact_solution, steps, output)"));
 }
 
 TEST_F(InputErrors, AMisspeltRequiredKeyIsNotReportedAsMissingToo)
@@ -124,7 +124,7 @@ TEST_F(InputErrors, AMisspeltLawLeavesItsKeysAlone)
 {
   EXPECT_THAT(problems(smallest + "material: {law: isotropc, axial_modulus: 3 GPa}\n"),
               ElementsAre("a.yaml:7:17: material.law is 'isotropc' (must be isotropic, "
-                          "transversely_isotropic, von_mises or rigid; did you mean "
+                          "transversely_isotropic, neo_hookean, von_mises or rigid; did you mean "
                           "'isotropic'?)."));
 }
 

@@ -1,0 +1,53 @@
+#pragma once
+/// How far a run is from the exact solution that its scene gives.
+
+#include <mpm/output/history.hpp>
+#include <mpm/output/summary.hpp>
+#include <mpm/simulation/run.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+/// Errors over all particles but the load cell's, weighted with mass: the root of the mean square,
+/// and the largest. One line of exact_solution.csv per line of the history.
+template <int Dim>
+class ExactSolution final : public Observer<Dim> {
+ public:
+  /// Nothing is done for a scene without an exact solution. The preparation lives as long as this.
+  ExactSolution(const Preparation<Dim>& preparation, const std::filesystem::path& folder);
+
+  void start(const HistoryKind&) override;
+  /// Collective.
+  void line(const typename Observer<Dim>::State& state, const HistoryLine& line) override;
+
+  /// The errors at the end, and over the largest size of the exact solution in the run.
+  void describe(output::Summary& summary) const;
+  /// A line for each quantity on the terminal.
+  void print() const;
+
+ private:
+  enum class Quantity { displacement, velocity, stress };
+  struct Comparison {
+    Quantity quantity;
+    std::string what, unit;
+    std::vector<const Formula*> exact;    ///< per component; nullptr: not compared
+    double error = 0, largest_error = 0;  ///< of the last line
+    double worst_error = 0, size = 0;     ///< roots of mean squares, largest of all lines
+  };
+  /// Calls visit(comparison, whether it is its first component, mass, value, exact value) for each
+  /// particle.
+  template <class Visit>
+  void for_each_value(const Body<Dim>& body, const Formulation<Dim>& formulation, double last_step,
+                      Visit visit);
+
+  const Preparation<Dim>& preparation_;
+  std::filesystem::path folder_;
+  std::vector<Comparison> comparisons_;
+  std::optional<output::HistoryFile> file_;
+};
+
+}  // namespace mpm

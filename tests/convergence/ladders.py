@@ -1,0 +1,101 @@
+"""Runs scenes with an exact solution on finer and finer grids, for every shape function and scheme,
+and compares errors with those of table.json.
+
+    ladders.py MPM_PAR [--scene NAME ...] [--levels N] [--write]
+
+table.json holds, for each scene: its file, what `--set` makes of a level (`{n}`: the level), the error
+that is looked at (a key of exact_solution in summary.json), the levels, and for each method the errors
+that they have. --write puts the measured errors there, for a change that is meant to alter them.
+"""
+import argparse
+import json
+import math
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+TABLE = Path(__file__).with_name("table.json")
+SCENES = Path(__file__).parents[2] / "inputs" / "benchmarks"
+WORSE = 1.10  # an error may grow by so much, not more
+
+
+def orders(levels, errors):
+    """Of each pair of neighbours; h is 1 / level."""
+    return [math.log(a / b) / math.log(m / n)
+            for (n, a), (m, b) in zip(zip(levels, errors), list(zip(levels, errors))[1:])]
+
+
+def error_of(mpm_par, case, method, level, folder):
+    """The error of one run; None if it broke down."""
+    settings = [setting.format(n=level) for setting in case["settings"]]
+    settings += [f"numerics.{key}={value}" for key, value in zip(("shape_function", "scheme"),
+                                                                 method.split())]
+    command = [str(mpm_par), str(SCENES / case["scene"]), "--output", str(folder)]
+    for setting in settings:
+        command += ["--set", setting]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode == 3:
+        return None
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+    return json.loads((folder / "summary.json").read_text())["exact_solution"][case["error"]]
+
+
+def defects(case, method, known, measured):
+    """What is wrong with these errors, in words; an empty list if nothing."""
+    found = []
+    for level, before, now in zip(case["levels"], known, measured):
+        where = f"{case['scene']}, {method}, level {level}"
+        if (before is None) != (now is None):
+            found.append(f"{where}: {'broke down' if now is None else 'ran'}, which it did not before")
+        elif now is not None and now > WORSE * before:
+            found.append(f"{where}: error {now:.3g}, {now / before - 1:.0%} above {before:.3g}")
+    return found
+
+
+def text_of(table):
+    """As JSON: a line for each method."""
+    cases = []
+    for case in table:
+        lines = [f'  "{key}": {json.dumps(value)}' for key, value in case.items() if key != "errors"]
+        errors = [f'    "{method}": {json.dumps(errors)}' for method, errors in case["errors"].items()]
+        lines.append('  "errors": {\n' + ",\n".join(errors) + "\n  }")
+        cases.append("{\n" + ",\n".join(lines) + "\n}")
+    return "[" + ", ".join(cases) + "]\n"
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__,
+                                        formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("mpm_par", type=Path)
+    arguments.add_argument("--scene", nargs="+", help="names without .yaml; all unless given")
+    arguments.add_argument("--levels", type=int, help="only so many, the coarsest")
+    arguments.add_argument("--write", action="store_true")
+    given = arguments.parse_args()
+    table = json.loads(TABLE.read_text())
+    found = []
+    with tempfile.TemporaryDirectory() as folder:
+        for case in table:
+            if given.scene and Path(case["scene"]).stem not in given.scene:
+                continue
+            levels = case["levels"][:given.levels]
+            for method, known in case["errors"].items():
+                measured = [error_of(given.mpm_par, case, method, level, Path(folder))
+                            for level in levels]
+                sound = [error for error in measured if error is not None]
+                rates = orders(levels, sound) if len(sound) == len(levels) else []
+                print(f"{Path(case['scene']).stem:<22} {method:<16}",
+                      " ".join("-" if error is None else f"{error:.3g}" for error in measured),
+                      " order", " ".join(f"{rate:.2f}" for rate in rates), flush=True)
+                if given.write:
+                    case["errors"][method] = [error and float(f"{error:.4g}") for error in measured]
+                else:
+                    found += defects(case, method, known, measured)
+    if given.write:
+        TABLE.write_text(text_of(table))
+    sys.exit("\n".join(found) if found else 0)
+
+
+if __name__ == "__main__":
+    main()
