@@ -1,0 +1,122 @@
+"""Observed order, extrapolation and error estimates on a ladder of grids.
+
+The ladder's values are f(h) = f0 + C h^p with an unknown limit f0 and order p (Richardson 1911;
+Roache 1994, J. Fluids Eng. 116:405). Three levels give all three unknowns, also where the ratio of
+their sizes is not constant. A value is a number or an array (a curve): differences are then measured
+in the 2-norm, and one difference points the way of another if their cosine says so.
+"""
+import dataclasses
+import math
+
+import numpy
+
+LOWEST, HIGHEST = 0.5, 3.0  # orders that count as those of a method in its asymptotic range
+AGREEMENT = 0.5  # by how much orders of successive triples may differ there
+
+
+def observed_order(sizes, values):
+    """p of three levels from coarse to fine, or None where no order above 0 explains them.
+
+    (f3 - f2)/(f2 - f1) = (h3^p - h2^p)/(h2^p - h1^p), which rises with p.
+    """
+    h3, h2, h1 = sizes
+    first, second = (numpy.atleast_1d(values[k + 1] - values[k]).astype(float) for k in (0, 1))
+    coarse, fine = numpy.linalg.norm(first), numpy.linalg.norm(second)
+    if fine == 0 or coarse == 0 or numpy.dot(first, second) < 0.5 * coarse * fine:
+        return None
+
+    def ratio(p):
+        return (h3 ** p - h2 ** p) / (h2 ** p - h1 ** p)
+
+    low, high = 1e-3, 20.0
+    if not ratio(low) < coarse / fine < ratio(high):
+        return None
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if ratio(middle) < coarse / fine else (low, middle)
+    return 0.5 * (low + high)
+
+
+def extrapolated(h2, h1, f2, f1, order):
+    """The limit f0 by Richardson: f1 + (f1 - f2)/((h2/h1)^p - 1)."""
+    return f1 + (f1 - f2) / ((h2 / h1) ** order - 1)
+
+
+@dataclasses.dataclass
+class Limit:
+    """What a ladder says of h = 0."""
+    value: object  # None where the finest triple has no order that can be trusted
+    order: float  # of the finest triple, or None
+    orders: list  # of all successive triples, coarse to fine
+    warnings: list  # why the ladder is not in its asymptotic range; empty if it is
+
+
+def limit(sizes, values):
+    """Extrapolates a ladder from coarse to fine; `sizes` fall, at least two levels."""
+    orders = [observed_order(sizes[k:k + 3], values[k:k + 3]) for k in range(len(sizes) - 2)]
+    if not orders:
+        return Limit(None, None, [], [f"{len(sizes)} levels, and an order takes three"])
+    warnings = []
+    order = orders[-1]
+    if order is None:
+        warnings.append("the last three levels do not approach one value steadily")
+        return Limit(None, None, orders, warnings)
+    if None in orders:
+        warnings.append("the differences of successive levels do not fall monotonically")
+    known = [p for p in orders if p is not None]
+    if max(known) - min(known) > AGREEMENT:
+        warnings.append("the orders of successive triples disagree: "
+                        + ", ".join("-" if p is None else f"{p:.2f}" for p in orders))
+    if not LOWEST <= order <= HIGHEST:
+        warnings.append(f"the observed order {order:.2f} lies outside {LOWEST:g} to {HIGHEST:g}")
+    if len(orders) == 1:
+        warnings.append("three levels only: nothing shows that the order holds")
+    if order < LOWEST:
+        return Limit(None, order, orders, warnings)
+    return Limit(extrapolated(*sizes[-2:], *values[-2:], order), order, orders, warnings)
+
+
+# Safety factors of the grid convergence index: Roache 1994 for three levels and more; 3 where the
+# ladder is not monotone (Eca & Hoekstra 2014, J. Comput. Phys. 262:104).
+FACTOR, CAUTIOUS_FACTOR = 1.25, 3.0
+FORMAL_ORDER = 2.0  # of displacements; walls and contact are of first order
+
+
+@dataclasses.dataclass
+class Estimate:
+    """The numerical error of the finest level of a ladder."""
+    uncertainty: float  # half width of the bar
+    order: float  # observed, or None
+    limit: float  # extrapolated, or None
+    basis: str  # gci or spread
+    remark: str
+
+
+def _spread(sizes, values, order, why):
+    """The range of all levels, carried to h = 0 in first order."""
+    reach = 1 / (sizes[0] / sizes[-1] - 1)
+    width = CAUTIOUS_FACTOR * reach * float(numpy.ptp(values))
+    return Estimate(width, order, None, "spread", why)
+
+
+def estimate(sizes, values):
+    """The error bar of the last of at least two levels from coarse to fine.
+
+    With an order from 0.5 on: 1.25 |f2 - f1| / (r^p - 1), p not above 2. A higher one is that of two
+    errors that cancel, and would promise too much. Otherwise: 3 times the range of the levels, carried
+    to h = 0 in first order.
+    """
+    if len(sizes) < 3:
+        return _spread(sizes, values, None, "two levels give no order")
+    order = observed_order(sizes[-3:], values[-3:])
+    if order is None:
+        return _spread(sizes[-3:], values[-3:], None, "not monotone")
+    if order < LOWEST:
+        return _spread(sizes[-3:], values[-3:], order, f"order {order:.2f} is below {LOWEST:g}")
+    used = min(order, FORMAL_ORDER)
+    ratio = sizes[-2] / sizes[-1]
+    width = FACTOR * abs(values[-1] - values[-2]) / (ratio ** used - 1)
+    # Beyond the formal order the extrapolation, too, trusts no more than that.
+    value = extrapolated(*sizes[-2:], *values[-2:], used)
+    remark = "" if math.isclose(used, order) else f"order taken as {FORMAL_ORDER:g}"
+    return Estimate(float(width), order, float(value), "gci", remark)
