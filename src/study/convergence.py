@@ -2,8 +2,8 @@
 
 The ladder's values are f(h) = f0 + C h^p with an unknown limit f0 and order p (Richardson 1911;
 Roache 1994, J. Fluids Eng. 116:405). Three levels give all three unknowns, also where the ratio of
-their sizes is not constant. A value is a number or an array (a curve): differences are then measured
-in the 2-norm, and one difference points the way of another if their cosine says so.
+their sizes is not constant. A value is a number or an array (a curve): differences are then
+measured in the 2-norm, and two of them point the same way if their cosine is at least 0.5.
 """
 import dataclasses
 import math
@@ -102,9 +102,9 @@ def _spread(sizes, values, order, why):
 def estimate(sizes, values):
     """The error bar of the last of at least two levels from coarse to fine.
 
-    With an order from 0.5 on: 1.25 |f2 - f1| / (r^p - 1), p not above 2. A higher one is that of two
-    errors that cancel, and would promise too much. Otherwise: 3 times the range of the levels, carried
-    to h = 0 in first order.
+    With an order from 0.5 on: 1.25 |f2 - f1| / (r^p - 1), p not above 2. A higher one is that of
+    two errors that cancel, and would promise too much. Otherwise: 3 times the range of the last
+    three levels, carried to h = 0 in first order.
     """
     if len(sizes) < 3:
         return _spread(sizes, values, None, "two levels give no order")

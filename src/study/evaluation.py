@@ -1,8 +1,10 @@
-"""Rows of the table, and for each measure its references, errors, Pareto front and cheapest runs."""
+"""Rows of the table, and for each measure references, errors, Pareto front and cheapest runs."""
 import dataclasses
+import math
 import statistics
 
 import convergence
+import measure_keys
 import pareto
 import resolution
 import results
@@ -10,6 +12,7 @@ from quantities import percent
 
 COSTS = ("wall_seconds", "core_seconds", "particle_steps")
 OK, UNSTABLE, FAILED = "ok", "unstable", "failed"
+IS_REFERENCE = "is the reference"
 
 
 @dataclasses.dataclass
@@ -122,11 +125,14 @@ def series_of(study, row):
     return tuple((key, row.combination.value(key)) for key in study.varied if key != study.along)
 
 
+def _size(study, row):
+    return resolution.size(study.along, row.combination.value(study.along))
+
+
 def ladder(study, measure, rows):
     """Good rows with a value, coarse to fine."""
     good = [row for row in rows if row.state == OK and row.values.get(measure.name) is not None]
-    return sorted(good, reverse=True, key=lambda row: resolution.size(
-        study.along, row.combination.value(study.along)))
+    return sorted(good, reverse=True, key=lambda row: _size(study, row))
 
 
 def _learnt(study, measure, rows):
@@ -136,21 +142,24 @@ def _learnt(study, measure, rows):
         return None
     finest = Reference(steps[-1].values[measure.name], f"the finest run, {steps[-1].level}",
                        row=steps[-1])
+    finer = [row.level for row in rows if _size(study, row) < _size(study, steps[-1])]
+    if finer:
+        finest.warnings.append(f"finer levels gave no good value: {', '.join(finer)}")
     if len(steps) < 2:
         finest.warnings.append("one level only: nothing to compare it with")
         return finest
     found = convergence.limit(
-        [resolution.size(study.along, row.combination.value(study.along)) for row in steps],
+        [_size(study, row) for row in steps],
         [row.values[measure.name] for row in steps])
     finest.order, finest.orders = found.order, found.orders
     if measure.against == "finest":
-        finest.warnings = [text for text in found.warnings if "only" not in text]
+        finest.warnings += found.warnings
         return finest
     if found.value is None:
-        finest.warnings = [*found.warnings, "no extrapolation: errors are against the finest run"]
+        finest.warnings += [*found.warnings, "no extrapolation: errors are against the finest run"]
         return finest
     return Reference(found.value, f"Richardson extrapolation, observed order {found.order:.2f}",
-                     found.order, found.orders, found.warnings)
+                     found.order, found.orders, finest.warnings + found.warnings)
 
 
 def references(study, measure, rows):
@@ -160,7 +169,7 @@ def references(study, measure, rows):
     if measure.against == "exact":
         return {one: Reference(None, "the figure is itself an error") for one in series}
     if not isinstance(measure.against, str):
-        return {one: Reference(measure.against, "the given number") for one in series}
+        return {one: Reference(measure.against, measure.against_text) for one in series}
     if measure.reference is not None:
         chosen = [row for row in rows if all(row.combination.value(key) == value
                                              for key, value in measure.reference)]
@@ -179,11 +188,25 @@ def _set_errors(study, measure, rows, found):
         if value is None or reference is None:
             continue
         if reference.row is row:
-            row.remarks[measure.name] = "is the reference"
+            row.remarks[measure.name] = IS_REFERENCE
         elif measure.against == "exact":
             row.errors[measure.name] = abs(value)
         else:
             row.errors[measure.name] = results.relative_error(value, reference.value)
+
+
+def _set_known_orders(study, measure, points, found):
+    """Against what is known the order is that of the errors of the two finest levels."""
+    for series, reference in found.items():
+        own = ladder(study, measure, [row for row in points if series_of(study, row) == series])
+        errors = [row.errors[measure.name] for row in own]
+        if len(own) < 2 or min(errors[-2:]) <= 0:
+            continue
+        pairs = zip(zip(own, errors), zip(own[1:], errors[1:]))
+        reference.orders = [math.log(fine / coarse) / math.log(_size(study, b) / _size(study, a))
+                            if fine > 0 and coarse > 0 else None
+                            for (a, coarse), (b, fine) in pairs]
+        reference.order = reference.orders[-1]
 
 
 def _warnings(found):
@@ -208,14 +231,14 @@ def _warnings(found):
 
 
 def _settled_error(study, measure, row, points):
-    """The largest error of this level and of the finer ones of its series: an error that changes its
-    sign passes through 0, and a level where it happens to do so has reached nothing."""
+    """The largest error of this level and of the finer ones of its series: an error that changes
+    its sign passes through 0, and a level where it happens to do so has reached nothing."""
     if not study.along:
         return row.errors[measure.name]
-    size = resolution.size(study.along, row.combination.value(study.along))
+    size = _size(study, row)
     return max(other.errors[measure.name] for other in points
                if series_of(study, other) == series_of(study, row)
-               and resolution.size(study.along, other.combination.value(study.along)) <= size)
+               and _size(study, other) <= size)
 
 
 def _target_line(study, target, measure, points):
@@ -224,13 +247,13 @@ def _target_line(study, target, measure, points):
     settled = {id(row): _settled_error(study, measure, row, points) for row in points}
     good = [row for row in points if settled[id(row)] <= target]
     row = min(good or points, key=lambda row: row.wall_seconds if good else settled[id(row)])
-    found = (f"{describe(study, row)}, error {percent(row.errors[measure.name])}, "
+    found = (f"{describe(study, row)}, error {percent(settled[id(row)])}, "
              f"{row.wall_seconds:.3g} s, {row.core_seconds:.3g} core-seconds")
     if good:
         return f"{percent(target)}: {found}"
     passing = [other for other in points if other.errors[measure.name] <= target]
-    more = (f" ({describe(study, passing[0])} has {percent(passing[0].errors[measure.name])}, but "
-            "finer levels of it have more: its error passes through zero)") if passing else ""
+    more = f"; {describe(study, passing[0])} has less by chance: finer levels have more" \
+        if passing else ""
     return f"{percent(target)}: not reached: the best is {found}{more}"
 
 
@@ -246,6 +269,8 @@ def outcome_of(study, measure, rows):
     _set_errors(study, measure, rows, found)
     points = [row for row in rows if row.state == OK and row.errors[measure.name] is not None
               and not row.combination.only_reference]
+    if measure.against not in measure_keys.LEARNT and study.along:
+        _set_known_orders(study, measure, points, found)
     fronts = {cost: pareto.front(points, lambda row: getattr(row, cost),
                                  lambda row: row.errors[measure.name]) for cost in COSTS}
     slopes = {}

@@ -20,6 +20,7 @@ class Measure:
     column: str = "stress"  # of history.csv, for `curve` and `mean`
     strain: tuple = (0.0, 1.0)  # from, to
     against: object = "finest"  # a number in SI units, exact, finest or richardson
+    against_text: str = ""  # as it was written
     reference: tuple = None  # pairs of key and value that choose the series, or None: each its own
     reference_run: object = None  # a Combination that is run for the reference alone
 
@@ -114,7 +115,8 @@ def _measure(node, along, varied, combinations):
     name = keys["name"].text if "name" in keys else more.get("path", kind).split(".")[-1]
     if not name.replace("_", "").isalnum():
         raise keys["name"].wrong(f"name is '{name}'", "Use letters, digits and _: it names files.")
-    return Measure(name=name, kind=kind, against=against, reference=reference, reference_run=run,
+    return Measure(name=name, kind=kind, against=against,
+                   against_text=keys["against"].text, reference=reference, reference_run=run,
                    **more)
 
 

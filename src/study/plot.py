@@ -28,10 +28,10 @@ def _plain(value, _=None):
 
 
 def _limits(values, least=3.0):
-    """The range of values with room to breathe, at least half a decade."""
+    """The range of values, at least half a decade, with a tenth of it for labels at both ends."""
     low, high = min(values), max(values)
     middle, half = (low * high) ** 0.5, max((high / low) ** 0.5, least ** 0.5)
-    return middle / half / 1.4, middle * half * 1.4
+    return middle / half ** 1.25, middle * half ** 1.25
 
 
 def _front(axes, front, cost, name):
@@ -61,11 +61,11 @@ def _crosses(axes, rows, cost, colour_of):
     that would hide each other stand below each other."""
     used = []
     left, right = axes.get_xlim()
-    width = (right / left) ** 0.02
+    width = (right / left) ** 0.025
     for row in rows:
         x = getattr(row, cost) or right / width
         x = min(max(x, left * width), right / width)
-        depth = sum(1 for other in used if max(x / other, other / x) < width)
+        depth = sum(1 for other in used if max(x / other, other / x) < 1.001 * width)
         used.append(x)
         axes.plot([x], [0.985 - 0.045 * depth], "x", transform=axes.get_xaxis_transform(), ms=9,
                   mew=2.2, color=colour_of(row), clip_on=False, zorder=7)
@@ -96,9 +96,8 @@ def _frame(axes, rows, outcome, cost, targets):
     y = [row.errors[name] for row in good] or [0.01]
     axes.set(xscale="log", yscale="log", xlim=_limits(x), ylim=_limits(y))
     bottom, top = axes.get_ylim()
-    axes.set_ylim(bottom / 1.6, top * 1.6)
     for target in targets:
-        if bottom / 1.6 < target < top * 1.6:
+        if bottom < target < top:
             axes.axhline(target, color="#999999", lw=0.9, ls=(0, (5, 4)), zorder=0)
     axes.grid(which="major", color="#e2e2e2", lw=0.7)
     axes.yaxis.set_major_formatter(FuncFormatter(_plain))
@@ -141,9 +140,10 @@ def draw(study, rows, outcome, folder):
                     fontsize=9, borderaxespad=0)
     against = {reference.words for reference in outcome.references.values() if reference}
     words = next(iter(against)) if len(against) == 1 else "the limit of each series"
-    panels[0].set_ylabel(f"error of {name}")
-    figure.suptitle(f"{study.title}: error of {name} against {words}"
-                    if outcome.measure.against != "exact" else f"{study.title}: {name}")
+    shown = name.replace("_", " ")
+    panels[0].set_ylabel(f"error of {shown}")
+    figure.suptitle(f"{study.title}: error of {shown} against {words}"
+                    if outcome.measure.against != "exact" else f"{study.title}: {shown}")
     paths = []
     for ending in ("svg", "png"):
         path = folder / f"error_{name}.{ending}"

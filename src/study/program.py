@@ -1,7 +1,7 @@
 """mpm_par as a process: what it is, what it says of a scene, and runs of it that are measured.
 
-Imports nothing large: Linux counts the memory of a process before exec, which is this one's, into the
-child's peak.
+Imports nothing large: Linux counts the memory of a process before exec, which is this one's, into
+the child's peak.
 """
 import dataclasses
 import hashlib

@@ -14,6 +14,8 @@ def figure(summary, path):
     """The number at a dotted path of the summary."""
     found = summary
     for word in path.split("."):
+        if found is None:
+            break
         if not isinstance(found, dict) or word not in found:
             raise Missing(f"summary.json has no {path}")
         found = found[word]

@@ -4,8 +4,8 @@
     DIR/runs/KEY/1.json      how that run ended: there only when it has
     DIR/runs/KEY/1.log       what it printed
 
-KEY is drawn from the text of the scene and of the files that it names, from the settings, the number
-of ranks and the program: what has changed is run anew.
+KEY is drawn from the text of the scene and of the files that it names, from the settings, the
+number of ranks and the program: what has changed is run anew.
 """
 import dataclasses
 import hashlib

@@ -8,6 +8,9 @@ from problems import DONE, NoResult
 from yaml_tree import read_yaml
 
 
+WIDTH = 80  # columns of the terminal
+
+
 def check_keys(study, program):
     """A key that no scene knows is a mistake in the study file; a value that this scene does not
     bear is a row of the table."""
@@ -19,29 +22,42 @@ def check_keys(study, program):
             raise node.wrong(f"{key} is no key of the scene", said.split(": ", 1)[-1].strip())
 
 
+def _name(study, combination):
+    """Values of what varies, for the line that tells of the run."""
+    words = [value for _, value in combination.settings]
+    if "ranks" in study.varied:
+        words.append(f"{combination.ranks} ranks")
+    return ", ".join(words) or "the scene as it is"
+
+
+def _is_bad(done):
+    return done.ended.exit_status != DONE or done.ended.stopped
+
+
 def run_all(study, program, kept, say=print):
     """All rounds in turn: every run once, then every run again. Returns a list of rounds for each
-    combination. A run that failed is not repeated."""
+    combination. What failed, and what is only for the reference, is not repeated."""
     rounds = [[] for _ in study.combinations]
+    before = 0
     for turn in range(1, study.repeat + 1):
         for k, combination in enumerate(study.combinations):
-            if rounds[k] and (rounds[k][-1].ended.exit_status != DONE or rounds[k][-1].ended.stopped):
-                continue
-            if turn > 1 and combination.only_reference:
+            if turn > 1 and (_is_bad(rounds[k][0]) or combination.only_reference):
                 continue
             assignments = study.assignments(combination)
             done = kept.find(assignments, combination.ranks, turn, study.time_limit)
-            before = done is not None
-            name = ", ".join([value for _, value in combination.settings]
-                             + ([f"{combination.ranks} ranks"] if "ranks" in study.varied else []))
-            head = f"round {turn} of {study.repeat}, run {k + 1} of {len(study.combinations)}"
-            if not before:
+            if done:
+                before += 1
+            else:
                 done = kept.run(program, study.scene, assignments, combination.ranks, turn,
                                 study.time_limit)
-            said = "done before" if before else f"{done.ended.elapsed_seconds:.1f} s"
-            failed = done.ended.exit_status or done.ended.stopped
-            say(f"{head}: {name}: {said}" + (f", failed: {done.ended.message}" if failed else ""))
+                end = f"failed: {done.ended.message}" if _is_bad(done) else \
+                    f"{done.ended.elapsed_seconds:.1f} s"
+                line = (f"round {turn}/{study.repeat} run {k + 1}/{len(rounds)}: "
+                        f"{_name(study, combination)}: {end}")
+                say(line if len(line) <= WIDTH else line[:WIDTH - 2] + "..")
             rounds[k].append(done)
+    if before:
+        say(f"{before} runs were done before")
     return rounds
 
 

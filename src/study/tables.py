@@ -2,6 +2,7 @@
 import csv
 import io
 import json
+import re
 
 import numpy
 
@@ -98,7 +99,7 @@ def _shown(value, unit=""):
 def wrapped(text, indent="  "):
     """Lines of at most 80 columns."""
     lines, line = [], ""
-    for word in text.split():
+    for word in re.split(r" (?!%)", text):
         if line and len(line) + 1 + len(word) > WIDTH - len(indent):
             lines.append(line)
             line = "  " + word
@@ -107,13 +108,26 @@ def wrapped(text, indent="  "):
     return "\n".join(indent + line for line in [*lines, line])
 
 
+def _reasons(study, rows, name):
+    """Why rows are bad or have no value; the same reason of several levels is said once."""
+    whose = {}
+    for row in rows:
+        why = row.status if row.state != evaluation.OK else row.remarks.get(name, "")
+        if why and why != evaluation.IS_REFERENCE:
+            whose.setdefault((row.label, why), []).append(row)
+    return [wrapped(f"{evaluation.describe(study, same[0])}"
+                    + (f" and {len(same) - 1} more" if len(same) > 1 else "") + f": {why}")
+            for (_, why), same in whose.items()]
+
+
 def terminal_text(study, rows, outcomes):
     """For each measure its runs, references, warnings and targets, in 80 columns."""
     lines = []
     widths = (34, 10, 9, 9, 14)
     for outcome in outcomes:
         name = outcome.measure.name
-        lines += ["", f"{study.title}: error of {name}",
+        shown = name.replace("_", " ")
+        lines += ["", f"{study.title}: error of {shown}",
                   _line(("settings", "value", "error", "wall s", "status"), widths)]
         on_front = {id(row) for row in outcome.fronts["wall_seconds"]}
         for row in rows:
@@ -121,16 +135,13 @@ def terminal_text(study, rows, outcomes):
             value = row.values.get(name)
             mark = "*" if id(row) in on_front else ""
             status = row.state if row.state != evaluation.OK else \
-                "reference" if row.remarks.get(name) == "is the reference" else \
+                "reference" if row.remarks.get(name) == evaluation.IS_REFERENCE else \
                 "no value" if value is None else row.state
             lines.append(_line((evaluation.describe(study, row),
                                 _shown(value) if not isinstance(value, numpy.ndarray) else "curve",
                                 (percent(error) if error is not None else "-") + mark,
                                 _shown(row.wall_seconds), status), widths))
-        for row in rows:
-            why = row.status if row.state != evaluation.OK else row.remarks.get(name, "")
-            if why and why != "is the reference":
-                lines.append(wrapped(f"{evaluation.describe(study, row)}: {why}"))
+        lines += _reasons(study, rows, name)
         lines.append("* on the Pareto front of error and wall seconds")
         words = dict.fromkeys(
             (", ".join(str(v) for _, v in series if v), reference.words, reference.order)
@@ -138,7 +149,7 @@ def terminal_text(study, rows, outcomes):
         if len({entry[1:] for entry in words}) == 1:
             words = {("", *next(iter(words))[1:]): None}
         for series, text, order in words:
-            known = f", observed order {order:.2f}" if order and "order" not in text else ""
+            known = f"; observed order {order:.2f}" if order and "order" not in text else ""
             lines.append(wrapped(f"against {text}{known}" + (f" ({series})" if series else "")))
         lines += [wrapped(f"warning: {warning}") for warning in outcome.warnings]
         lines += [wrapped(f"cheapest for {line}") for line in outcome.targets]
