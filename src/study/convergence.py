@@ -6,7 +6,6 @@ their sizes is not constant. A value is a number or an array (a curve): differen
 measured in the 2-norm, and two of them point the same way if their cosine is at least 0.5.
 """
 import dataclasses
-import math
 
 import numpy
 
@@ -79,7 +78,8 @@ def limit(sizes, values):
 # Safety factors of the grid convergence index: Roache 1994 for three levels and more; 3 where the
 # ladder is not monotone (Eca & Hoekstra 2014, J. Comput. Phys. 262:104).
 FACTOR, CAUTIOUS_FACTOR = 1.25, 3.0
-FORMAL_ORDER = 2.0  # of displacements; walls and contact are of first order
+PROVEN_ORDER = 1.0  # of walls and of contact, which act on whole nodes (docs/theory.md)
+FORMAL_ORDER = 2.0  # of displacements inside a body
 
 
 @dataclasses.dataclass
@@ -87,36 +87,30 @@ class Estimate:
     """The numerical error of the finest level of a ladder."""
     uncertainty: float  # half width of the bar
     order: float  # observed, or None
-    limit: float  # extrapolated, or None
-    basis: str  # gci or spread
+    limit: float  # extrapolated with what the bar trusts of the order, or None
+    basis: str  # gci, first order or spread
     remark: str
 
 
-def _spread(sizes, values, order, why):
-    """The range of all levels, carried to h = 0 in first order."""
-    reach = 1 / (sizes[0] / sizes[-1] - 1)
-    width = CAUTIOUS_FACTOR * reach * float(numpy.ptp(values))
-    return Estimate(width, order, None, "spread", why)
-
-
 def estimate(sizes, values):
-    """The error bar of the last of at least two levels from coarse to fine.
+    """The error bar of the last of at least two levels from coarse to fine: see docs/studies.md.
 
-    With an order from 0.5 on: 1.25 |f2 - f1| / (r^p - 1), p not above 2. A higher one is that of
-    two errors that cancel, and would promise too much. Otherwise: 3 times the range of the last
-    three levels, carried to h = 0 in first order.
+    gci: 1.25 |f2 - f1|/(r^p - 1) with the observed order p, from 0.5 to 1; up to 2 where four levels
+    or more agree on it. first order: an order above 1 that three levels show may be that of two
+    errors that cancel: 1.25 times their range, carried to h = 0 in first order. spread: 3 times that
+    where they show no order.
     """
-    if len(sizes) < 3:
-        return _spread(sizes, values, None, "two levels give no order")
-    order = observed_order(sizes[-3:], values[-3:])
-    if order is None:
-        return _spread(sizes[-3:], values[-3:], None, "not monotone")
-    if order < LOWEST:
-        return _spread(sizes[-3:], values[-3:], order, f"order {order:.2f} is below {LOWEST:g}")
-    used = min(order, FORMAL_ORDER)
-    ratio = sizes[-2] / sizes[-1]
-    width = FACTOR * abs(values[-1] - values[-2]) / (ratio ** used - 1)
-    # Beyond the formal order the extrapolation, too, trusts no more than that.
-    value = extrapolated(*sizes[-2:], *values[-2:], used)
-    remark = "" if math.isclose(used, order) else f"order taken as {FORMAL_ORDER:g}"
-    return Estimate(float(width), order, float(value), "gci", remark)
+    last_sizes, last = sizes[-3:], values[-3:]
+    reach = float(numpy.ptp(last)) / (last_sizes[0] / last_sizes[-1] - 1)
+    order = observed_order(last_sizes, last) if len(last) == 3 else None
+    if order is None or order < LOWEST:
+        why = "two levels give no order" if len(last) < 3 else \
+            "the levels do not approach one value steadily" if order is None else \
+            f"order {order:.2f} is below {LOWEST:g}"
+        return Estimate(CAUTIOUS_FACTOR * reach, order, None, "spread", why)
+    confirmed = not limit(sizes, values).warnings
+    used = min(order, FORMAL_ORDER if confirmed else PROVEN_ORDER)
+    value = float(extrapolated(*sizes[-2:], *values[-2:], used))
+    if order > PROVEN_ORDER and not confirmed:
+        return Estimate(FACTOR * reach, order, value, "first order", "")
+    return Estimate(FACTOR * abs(value - values[-1]), order, value, "gci", "")

@@ -51,7 +51,10 @@ def curve(path, column, begin, end):
         raise Missing(f"the run ends at {100 * strain[-1]:.3g} % strain, before {100 * end:.3g} %")
     if column.startswith("stress"):
         strain = numpy.append(strain[0], 0.5 * (strain[1:] + strain[:-1]))
-    return numpy.interp(numpy.linspace(begin, end, CURVE_POINTS), strain, values)
+    found = numpy.interp(numpy.linspace(begin, end, CURVE_POINTS), strain, values)
+    if not numpy.isfinite(found).all():
+        raise Missing(f"{column} is not finite")
+    return found
 
 
 def mean(path, column, begin, end):
