@@ -119,7 +119,8 @@ def json_text(given, program, levels, plateau, bars):
     return json.dumps({
         "scene": given.file, "settings": given.set, "ranks": given.ranks,
         "plateau_strain": plateau, "figures": figures, "levels": _costs(levels),
-        "safety_factor": convergence.FACTOR,
+        "safety_factor_where_levels_agree": convergence.FACTOR,
+        "safety_factor_of_three_levels": convergence.UNCONFIRMED_FACTOR,
         "safety_factor_where_not_monotone": convergence.CAUTIOUS_FACTOR,
         "written": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
         "mpm_par": program.version, "machine": machine.machine()}, indent=1) + "\n"
@@ -143,9 +144,9 @@ def terminal_text(levels, plateau, bars):
         if bar.remark:
             lines.append(tables.wrapped(f"{bar.figure.name}: {bar.remark}"))
     lines += [tables.wrapped(
-        f"gci: {convergence.FACTOR:g} x the extrapolated rest; spread: "
-        f"{convergence.CAUTIOUS_FACTOR:g} x the range of the levels, where they show no order. "
-        f"Plateau stress: mean from {percent(plateau[0])} to {percent(plateau[1])} strain."), "",
+        "gci: from the observed order; first order: from the range of the levels, as if it fell in "
+        "first order; spread: wider, no order is seen (docs/studies.md). Plateau stress: mean "
+        f"from {percent(plateau[0])} to {percent(plateau[1])} strain."), "",
         f"{'level':22}{'cells':>14}{'particles':>12}{'steps':>10}{'seconds':>10}"]
     total = sum(done.ended.elapsed_seconds for _, done in levels)
     own = next(done for factor, done in levels if factor == 1).ended.elapsed_seconds

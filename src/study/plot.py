@@ -27,11 +27,11 @@ def _plain(value, _=None):
     return f"{100 * value:.3g} %"
 
 
-def _limits(values, least=3.0):
-    """The range of values, at least half a decade, with a tenth of it for labels at both ends."""
+def _limits(values):
+    """The range of values, at least half a decade, with room for labels, most at its lower end."""
     low, high = min(values), max(values)
-    middle, half = (low * high) ** 0.5, max((high / low) ** 0.5, least ** 0.5)
-    return middle / half ** 1.25, middle * half ** 1.25
+    middle, half = (low * high) ** 0.5, max((high / low) ** 0.5, 3 ** 0.5)
+    return middle / half ** 1.35, middle * half ** 1.25
 
 
 def _front(axes, front, cost, name):

@@ -43,31 +43,31 @@ def with_noise(random):
 
 
 class Coverage(unittest.TestCase):
-    """Measured with these draws: 100, 94 and 89 of 100, by bars 1.7, 2.9 and 2.8 times the error."""
+    """Measured with these draws: RATES."""
 
     def test_pure_powers_are_always_covered(self):
         rate, width = hit_rate(one_term)
         self.assertEqual(rate, 1)
-        self.assertLess(width, 2)  # a bar that covers everything says nothing
+        self.assertLess(width, 3)  # a bar that covers everything says nothing
 
     def test_sums_of_two_orders_are_covered_as_often_as_the_index_is_meant_to(self):
         rate, width = hit_rate(two_terms)
-        self.assertGreater(rate, 0.93)
-        self.assertLess(width, 3.5)
+        self.assertGreater(rate, 0.95)
+        self.assertLess(width, 5)
 
-    def test_chance_costs_some_hits(self):
+    def test_chance_costs_a_few_hits(self):
         rate, width = hit_rate(with_noise)
-        self.assertGreater(rate, 0.88)
-        self.assertLess(width, 3.5)
+        self.assertGreater(rate, 0.92)
+        self.assertLess(width, 4)
 
     def test_bars_without_safety_factors_would_be_found_out(self):
-        kept = convergence.FACTOR, convergence.CAUTIOUS_FACTOR
+        kept = convergence.UNCONFIRMED_FACTOR, convergence.CAUTIOUS_FACTOR
         try:
-            convergence.FACTOR, convergence.CAUTIOUS_FACTOR = 0.8, 0.8
-            self.assertLess(hit_rate(two_terms)[0], 0.9)
-            self.assertLess(hit_rate(one_term)[0], 0.9)
+            convergence.UNCONFIRMED_FACTOR, convergence.CAUTIOUS_FACTOR = 0.9, 1.0
+            self.assertLess(hit_rate(one_term)[0], 0.95)
+            self.assertLess(hit_rate(two_terms)[0], 0.92)
         finally:
-            convergence.FACTOR, convergence.CAUTIOUS_FACTOR = kept
+            convergence.UNCONFIRMED_FACTOR, convergence.CAUTIOUS_FACTOR = kept
 
 
 class FourLevels(unittest.TestCase):
@@ -83,7 +83,7 @@ class FourLevels(unittest.TestCase):
         found = convergence.estimate(sizes, [1 + 0.01 * h ** 2 for h in sizes])
         self.assertEqual(found.basis, "first order")
         self.assertAlmostEqual(found.order, 2)
-        self.assertAlmostEqual(found.uncertainty, 1.25 * 0.15 / 3)
+        self.assertAlmostEqual(found.uncertainty, 2 * 0.15 / 3)
 
 
 class NoOrder(unittest.TestCase):

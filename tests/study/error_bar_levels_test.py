@@ -72,10 +72,10 @@ class Bars(unittest.TestCase):
     def bar(self, moduli, cells=((4, 10), (2, 20), (1, 40))):
         return error_bar_report.bar_of(MODULUS, levels(moduli, cells), (0.05, 0.15))
 
-    def test_of_first_order_is_the_rest_and_a_quarter(self):
+    def test_of_first_order_is_twice_the_rest(self):
         bar = self.bar([140.0, 120.0, 110.0])
         self.assertAlmostEqual(bar.limit, 100)
-        self.assertAlmostEqual(bar.error, 12.5)
+        self.assertAlmostEqual(bar.error, 20)
         self.assertEqual(bar.basis, "gci")
 
     def test_is_never_smaller_than_the_error_of_reading(self):
@@ -86,7 +86,7 @@ class Bars(unittest.TestCase):
     def test_of_a_scene_with_finer_levels_reaches_to_their_limit(self):
         bar = self.bar([140.0, 120.0, 110.0], ((1, 10), (0.5, 20), (0.25, 40)))
         self.assertEqual(bar.value, 140)
-        self.assertAlmostEqual(bar.error, 40 + 12.5)
+        self.assertAlmostEqual(bar.error, 40 + 20)
 
     def test_without_a_value_says_why(self):
         bar = self.bar([140.0, 120.0, None])
