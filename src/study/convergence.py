@@ -75,9 +75,9 @@ def limit(sizes, values):
     return Limit(extrapolated(*sizes[-2:], *values[-2:], order), order, orders, warnings)
 
 
-# Safety factors of the grid convergence index: 1.25 where levels agree on an order (Roache 1994), 3
-# where the ladder is not monotone (Eca & Hoekstra 2014, J. Comput. Phys. 262:104). Three levels give
-# an order and do not confirm it: 2 lies between, and covers what it should (docs/studies.md).
+# Safety factors of the grid convergence index: 1.25 where levels agree on an order (Roache 1994),
+# 3 where the ladder is not monotone (Eca & Hoekstra 2014, J. Comput. Phys. 262:104). Three levels
+# give an order and do not confirm it: 2 lies between, and holds what it should (docs/studies.md).
 FACTOR, UNCONFIRMED_FACTOR, CAUTIOUS_FACTOR = 1.25, 2.0, 3.0
 PROVEN_ORDER = 1.0  # of walls and of contact, which act on whole nodes (docs/theory.md)
 FORMAL_ORDER = 2.0  # of displacements inside a body
@@ -96,10 +96,10 @@ class Estimate:
 def estimate(sizes, values):
     """The error bar of the last of at least two levels from coarse to fine: see docs/studies.md.
 
-    gci: |f2 - f1|/(r^p - 1) with the observed order p, from 0.5 to 1, times 2; up to p = 2 and times
-    1.25 where four levels or more agree on it. first order: a p above 1 that three levels show may
-    be that of two errors that cancel: 2 times their range, carried to h = 0 in first order. spread:
-    3 times that where they show no order.
+    gci: |f2 - f1|/(r^p - 1) with the observed order p, from 0.5 to 1, times 2; up to p = 2 and
+    times 1.25 where four levels or more agree on it. first order: a p above 1 that three levels
+    show may be that of two errors that cancel: 2 times their range, carried to h = 0 in first
+    order. spread: 3 times that range where they show no order.
     """
     last_sizes, last = sizes[-3:], values[-3:]
     reach = float(numpy.ptp(last)) / (last_sizes[0] / last_sizes[-1] - 1)

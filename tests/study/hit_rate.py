@@ -3,10 +3,10 @@
 
     python3 tests/study/hit_rate.py results/block_levels/study.json ...
 
-Levels are taken as mpm_study --error-bar takes them, each about 1.5 times as coarse as the next (1.35
-to 1.67). What is known better is the number that the errors are against, or else the finest run of the
-series: then only triples count whose finest level is at least 1.9 times as coarse. Compares scalar
-measures of good runs.
+Levels are taken as mpm_study --error-bar takes them, each about 1.5 times as coarse as the next
+(1.35 to 1.67). What is known better is the number that the errors are against, or else the finest
+run of the series: then only triples count whose finest level is at least 1.9 times as coarse.
+Compares scalar measures of good runs.
 """
 import itertools
 import json

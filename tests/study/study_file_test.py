@@ -1,4 +1,4 @@
-"""Study files: which runs they stand for, and one clear error with its line for each that is wrong."""
+"""Study files: which runs they stand for, and one clear error with its line for what is wrong."""
 import pathlib
 import tempfile
 import unittest

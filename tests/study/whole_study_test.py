@@ -82,7 +82,8 @@ class WholeStudy(StudyTest):
         self.assertFalse(list(self.folder.glob("output/**/*.part")))
 
     def test_what_is_done_is_not_done_again(self):
-        output, text = self.folder / "output", STUDY.replace("[[8, 2], [16, 4], [32, 8]]", "[[8, 2]]")
+        output = self.folder / "output"
+        text = STUDY.replace("[[8, 2], [16, 4], [32, 8]]", "[[8, 2]]")
         self.good(self.write(text), "--output", output)
         before, table = self.times_of_records(), (output / "study.csv").read_text()
         said = self.good(self.write(text), "--output", output)
