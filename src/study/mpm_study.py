@@ -69,6 +69,8 @@ def main(words):
     except problems.NoResult as error:
         print(error, file=sys.stderr)
         return problems.NUMERICAL_FAILURE
+    except BrokenPipeError:  # whoever read what is printed, such as head, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
         print(f"{error.filename or given.output}: {error.strerror}. Choose another --output, or "
               "make room.", file=sys.stderr)

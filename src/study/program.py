@@ -60,10 +60,10 @@ class Program:
         return words
 
     def check(self, scene, assignments):
-        """mpm_par's error for this scene; empty if it would run."""
+        """What mpm_par finds wrong with this scene, a line each; none if it would run."""
         checked = subprocess.run(self._words(scene, assignments) + ["--check"],
                                  capture_output=True, text=True)
-        return _message(checked.stderr, checked.returncode) if checked.returncode else ""
+        return checked.stderr.splitlines() if checked.returncode else []
 
     def run(self, scene, assignments, ranks, folder, time_limit=None):
         """Runs to the end; results in `folder`, what it printed in `folder`.log."""

@@ -17,9 +17,9 @@ def check_keys(study, program):
     for key, node in study.nodes.items():
         if key == "ranks":
             continue
-        said = program.check(study.scene, [(key, node.text)])
-        if "unknown key" in said or "is no assignment" in said:
-            raise node.wrong(f"{key} is no key of the scene", said.split(": ", 1)[-1].strip())
+        for said in program.check(study.scene, [(key, node.text)]):
+            if said.startswith(f"--set {key}=") and ": unknown key" in said:
+                raise node.wrong(f"{key} is no key of the scene", said.split(": ", 1)[1])
 
 
 def _name(study, combination):
@@ -88,11 +88,9 @@ def run(given, program, output):
     store.write_whole(output / "study.csv", tables.csv_text(study, rows))
     store.write_whole(output / "study.json",
                       tables.json_text(study, rows, outcomes, provenance(study, program)))
+    paths = [path for outcome in outcomes for path in plot.draw(study, rows, outcome, output)]
     print(tables.terminal_text(study, rows, outcomes), end="")
-    for outcome in outcomes:
-        for path in plot.draw(study, rows, outcome, output):
-            print(f"  {path}")
+    print("".join(f"  {path}\n" for path in paths), end="", flush=True)
     if not any(value is not None for row in rows for value in row.values.values()):
         raise NoResult(f"{study.path}: no run gave a figure. The reasons are in "
                        f"{output / 'study.csv'}.")
-    return rows, outcomes
