@@ -39,6 +39,19 @@ def _lists(node):
     return node.value
 
 
+def level_keys(along, varied, combinations):
+    """Keys that make up a level: the one that refines, and those of runs that it determines, such
+    as the cells of a load cell that keeps its thickness. Those of the method never do."""
+    found = [along] if along else []
+    for key in varied if along else []:
+        pairs = {(run.value(along), run.value(key)) for run in combinations}
+        levels, values = ({pair[k] for pair in pairs} for k in (0, 1))
+        if (key not in (along, "ranks") and not key.startswith("numerics.") and len(values) > 1
+                and len(pairs) == len(levels)):
+            found.append(key)
+    return tuple(found)
+
+
 def read_combinations(keys, default_ranks):
     """Every combination of the lists of `vary` with every entry of `runs`."""
     lists = _lists(keys["vary"]) if "vary" in keys else {}

@@ -67,7 +67,7 @@ def label_of(study, combination):
     words = []
     for key in study.varied:
         value = combination.value(key)
-        if key == study.along or value is None:
+        if key in study.level_keys or value is None:
             continue
         plain = key.split(".")[-1]
         text = resolution.short(key, value)
@@ -122,7 +122,8 @@ def judge_energy(row, summary, bound):
 
 def series_of(study, row):
     """What rows of one ladder share."""
-    return tuple((key, row.combination.value(key)) for key in study.varied if key != study.along)
+    return tuple((key, row.combination.value(key)) for key in study.varied
+                 if key not in study.level_keys)
 
 
 def _size(study, row):

@@ -66,7 +66,7 @@ def _against(node, kind):
                          "Write a number with its unit, exact, finest or richardson.") from None
 
 
-def _reference(keys, against, along, varied, combinations):
+def _reference(keys, against, along, of_level, varied, combinations):
     """The settings that choose the series of the reference, and a run for it alone if needed."""
     node = keys["reference"]
     if against not in LEARNT:
@@ -74,27 +74,31 @@ def _reference(keys, against, along, varied, combinations):
                          "Leave it away.")
     chosen = {key: value.text
               for key, value in known(node, tuple(varied), "reference").items()}
-    level = chosen.pop(along, None)
+    level = {key: chosen.pop(key) for key in of_level if key in chosen}
     matching = [run for run in combinations
                 if all(run.value(key) == value for key, value in chosen.items())]
-    series = {tuple((key, run.value(key)) for key in varied if key != along) for run in matching}
+    series = {tuple((key, run.value(key)) for key in varied if key not in of_level)
+              for run in matching}
     if len(series) != 1:
         raise node.wrong(f"reference fits {len(series)} series of runs",
-                         f"Name the values of {', '.join(k for k in varied if k != along)} of "
-                         "one that is there.")
-    if level is None:
+                         f"Name the values of {', '.join(k for k in varied if k not in of_level)} "
+                         "of one that is there.")
+    if not level:
         return tuple(chosen.items()), None
+    if len(level) < len(of_level):
+        raise node.wrong(f"reference names a level by {', '.join(level)} alone",
+                         f"Name all of {', '.join(of_level)}.")
     try:
-        resolution.size(along, level)
+        resolution.size(along, level[along])
     except ValueError as error:
-        raise node.value[along].wrong(f"reference.{along} is {level} ({error})",
+        raise node.value[along].wrong(f"reference.{along} is {level[along]} ({error})",
                                       "Write it as in vary.") from None
     run = matching[0]
-    settings = tuple((key, level if key == along else value) for key, value in run.settings)
+    settings = tuple((key, level.get(key, value)) for key, value in run.settings)
     return tuple(chosen.items()), Combination(settings, run.ranks, only_reference=True)
 
 
-def _measure(node, along, varied, combinations):
+def _measure(node, along, of_level, varied, combinations):
     keys = known(node, KEYS, "error")
     kinds = [kind for kind in ("of", "curve", "mean") if kind in keys]
     if len(kinds) != 1:
@@ -111,7 +115,7 @@ def _measure(node, along, varied, combinations):
     more = {"path": keys["of"].text} if kind == "of" else _part(keys[kind], kind)
     reference, run = None, None
     if "reference" in keys:
-        reference, run = _reference(keys, against, along, varied, combinations)
+        reference, run = _reference(keys, against, along, of_level, varied, combinations)
     name = keys["name"].text if "name" in keys else more.get("path", kind).split(".")[-1]
     if not name.replace("_", "").isalnum():
         raise keys["name"].wrong(f"name is '{name}'", "Use letters, digits and _: it names files.")
@@ -120,11 +124,11 @@ def _measure(node, along, varied, combinations):
                    **more)
 
 
-def read_measures(node, along, varied, combinations):
+def read_measures(node, along, of_level, varied, combinations):
     """A map is one measure, a list several with different names."""
     measures = []
     for item in node.value if node.is_list else [node]:
-        measure = _measure(item, along, varied, combinations)
+        measure = _measure(item, along, of_level, varied, combinations)
         if measure.name in [other.name for other in measures]:
             raise item.wrong(f"two errors are named {measure.name}", "Give one another name.")
         measures.append(measure)

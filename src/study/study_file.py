@@ -5,7 +5,7 @@ import pathlib
 import measure_keys
 import resolution
 from checked_keys import known, quantity, whole_number
-from combinations import read_combinations, settings_of
+from combinations import level_keys, read_combinations, settings_of
 from problems import InputError
 from yaml_tree import Node, read_yaml
 
@@ -37,6 +37,7 @@ class Study:
     varied: list  # keys that differ between runs, in the order of the file
     nodes: dict  # key of the scene: a node that sets it, for messages
     along: str  # key that refines, or None
+    level_keys: tuple  # along, and what changes with it: all else makes series
     repeat: int
     unstable_above: float
     time_limit: float  # s, or None
@@ -111,7 +112,8 @@ def read_study(path, quick=False, ranks=1):
         shared = {key: node for key, node in shared.items() if key != "ranks"}
     combinations, varied, nodes = read_combinations(keys, ranks)
     along = _along(keys, varied, combinations, nodes)
-    measures = measure_keys.read_measures(keys["error"], along, varied, combinations)
+    of_level = level_keys(along, varied, combinations)
+    measures = measure_keys.read_measures(keys["error"], along, of_level, varied, combinations)
     for extra in (measure.reference_run for measure in measures):
         if extra and not any(extra.settings == run.settings and extra.ranks == run.ranks
                              for run in combinations):
@@ -119,7 +121,7 @@ def read_study(path, quick=False, ranks=1):
     study = Study(
         path=path, title=keys["title"].text if "title" in keys else path.stem,
         scene=scene, shared=shared, combinations=combinations, varied=varied,
-        nodes={**shared, **nodes}, along=along,
+        nodes={**shared, **nodes}, along=along, level_keys=of_level,
         repeat=whole_number(keys["repeat"], "repeat", 1) if "repeat" in keys else 1,
         unstable_above=quantity(keys["unstable_above"], "unstable_above", "number", "5 %")
         if "unstable_above" in keys else 0.05,

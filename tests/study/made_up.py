@@ -15,7 +15,7 @@ def study(measure, series=("gimp",), levels=(10, 20, 40, 80), targets=(0.01, 0.0
     runs = [Combination(((SHAPE, shape), (ALONG, f"[{n}, {n}]")), 1)
             for shape in series for n in levels]
     return Study(pathlib.Path("study.yaml"), "Made up", pathlib.Path("scene.yaml"), {}, runs,
-                 [SHAPE, ALONG], {}, ALONG, 1, 0.05, None, [measure], list(targets))
+                 [SHAPE, ALONG], {}, ALONG, (ALONG,), 1, 0.05, None, [measure], list(targets))
 
 
 def row(of_study, combination, value, seconds, state=OK):

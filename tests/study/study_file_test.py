@@ -73,6 +73,15 @@ class Runs(StudyFile):
             "  - {grid.cells: [10, 20], ranks: 2}\n  - {grid.cells: [20, 40], ranks: 1}")
         self.assertEqual([run.ranks for run in self.read(text).combinations], [2, 1])
 
+    def test_of_a_ladder_may_change_what_is_counted_in_cells(self):
+        text = GOOD.replace("vary:", "runs:").replace(
+            "  numerics.shape_function: [gimp, quadratic]\n", "").replace(
+            "  grid.cells: [[10, 20], [20, 40], [40, 80]]",
+            "  - {grid.cells: [10, 20], loading.load_cell.cells: 2, numerics.cfl: 0.2}\n"
+            "  - {grid.cells: [20, 40], loading.load_cell.cells: 4, numerics.cfl: 0.3}")
+        self.assertEqual(self.read(text).level_keys, ("grid.cells", "loading.load_cell.cells"))
+        self.assertEqual(self.read(GOOD).level_keys, ("grid.cells",))
+
     def test_have_the_ranks_of_the_command_unless_the_study_says_so(self):
         self.assertEqual(self.read(GOOD, ranks=4).combinations[0].ranks, 4)
         text = GOOD.replace("25 %", "25 %, ranks: 2")
