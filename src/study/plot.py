@@ -1,6 +1,7 @@
 """Error over cost, log-log: a picture of three panels for each measure."""
 import io
 import itertools
+import math
 import os
 
 import matplotlib
@@ -46,14 +47,20 @@ def _front(axes, front, cost, name):
 
 
 def _levels(axes, front, cost, name):
-    """The level beside each run of the front, to the lower left, where no run lies."""
-    for row in front:
-        if row.level:
-            axes.annotate(row.level, (getattr(row, cost), row.errors[name]), (-7, -7),
-                          textcoords="offset points", ha="right", va="top", fontsize=8,
-                          color="#222222", zorder=6,
-                          bbox={"boxstyle": "square,pad=0.1", "fc": "white", "ec": "none",
-                                "alpha": 0.7})
+    """The level beside each run of the front, to the lower left, where no run lies; left away where
+    it would cover the one before."""
+    placed = []  # in parts of the panel, of which a label takes about 0.15 by 0.045
+    for row in sorted(front, key=lambda row: row.errors[name]):
+        place = (getattr(row, cost), row.errors[name])
+        x, y = (math.log(value / low) / math.log(high / low)
+                for value, (low, high) in zip(place, (axes.get_xlim(), axes.get_ylim())))
+        if not row.level or any(abs(x - a) < 0.15 and abs(y - b) < 0.045 for a, b in placed):
+            continue
+        placed.append((x, y))
+        axes.annotate(row.level, place, (-7, -7), textcoords="offset points", ha="right", va="top",
+                      fontsize=8, color="#222222", zorder=6,
+                      bbox={"boxstyle": "square,pad=0.1", "fc": "white", "ec": "none",
+                            "alpha": 0.7})
 
 
 def _crosses(axes, rows, cost, colour_of):
@@ -127,8 +134,9 @@ def draw(study, rows, outcome, folder):
         _frame(axes, [row for row in rows if not row.combination.only_reference], outcome, cost,
                study.targets)
         handles = _panel(axes, study, rows, outcome, cost, looks)
-        _front(axes, outcome.fronts[cost], cost, name)
-        _levels(axes, outcome.fronts[cost], cost, name)
+        front = [row for row in outcome.fronts[cost] if row.errors[name]]  # 0 has no logarithm
+        _front(axes, front, cost, name)
+        _levels(axes, front, cost, name)
         _crosses(axes, bad, cost, lambda row: looks[evaluation.series_of(study, row)][0])
         handles.append(Line2D([], [], color="#bbbbbb", lw=5, alpha=0.55, marker="o", ms=11,
                               mfc="none", mec="#222222", label="Pareto front"))
