@@ -99,8 +99,10 @@ class WholeStudy(StudyTest):
     def test_an_interrupted_study_goes_on(self):
         path, output = self.write(STUDY.replace("repeat: 2", "repeat: 9")), self.folder / "output"
         words = [os.environ["MPM_STUDY"], path, "--output", output]
+        # A shell's background jobs, of which the tests may be one, ignore interrupts.
         study = subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE,
-                                 stderr=subprocess.PIPE, text=True)
+                                 stderr=subprocess.PIPE, text=True,
+                                 preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         limit = time.monotonic() + 60
         while len(self.times_of_records()) < 3 and time.monotonic() < limit:
             time.sleep(0.02)
