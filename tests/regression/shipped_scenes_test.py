@@ -15,7 +15,7 @@ class ShippedScenes(ProgramTest):
 
     def test_all_are_understood(self):
         scenes = {path.relative_to(INPUTS).as_posix() for path in INPUTS.glob("*/*.yaml")
-                  if not path.name.endswith(".anatomy.yaml")}
+                  if not path.name.endswith(".anatomy.yaml") and path.parent.name != "studies"}
         self.assertGreater(len(scenes), 10)
         for name in sorted(scenes):
             with self.subTest(name):

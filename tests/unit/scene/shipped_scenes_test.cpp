@@ -15,7 +15,8 @@ std::vector<fs::path> shipped_scenes()
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(MPM_INPUTS_DIR))
     if (entry.path().extension() == ".yaml" &&
-        entry.path().stem().extension() != ".anatomy")  // for the wood generator
+        entry.path().stem().extension() != ".anatomy" &&     // for the wood generator
+        entry.path().parent_path().filename() != "studies")  // for mpm_study
       files.push_back(entry.path());
   std::ranges::sort(files);
   return files;

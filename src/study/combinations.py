@@ -1,0 +1,79 @@
+"""The runs of a study: every combination of the lists of `vary` with every entry of `runs`."""
+import dataclasses
+import itertools
+
+from checked_keys import whole_number
+
+
+@dataclasses.dataclass(frozen=True)
+class Combination:
+    """The settings of one run."""
+    settings: tuple  # pairs of a key of the scene and its value as text: what varies
+    ranks: int
+    only_reference: bool = False  # run for its result, no point of the study
+
+    def value(self, key):
+        return str(self.ranks) if key == "ranks" else dict(self.settings).get(key)
+
+
+def settings_of(node, where):
+    """A map from keys of the scene to single values."""
+    if not node.is_map:
+        raise node.wrong(f"{where} is no map", "Write keys of the scene: {grid.cells: [48, 42]}.")
+    for key, value in node.value.items():
+        if key == "ranks":
+            whole_number(value, "ranks", 1)
+    return node.value
+
+
+def _lists(node):
+    if not node.is_map or not node.value:
+        raise node.wrong("vary is no map", "Write a list for each key: "
+                         "{numerics.shape_function: [gimp, quadratic]}.")
+    for key, values in node.value.items():
+        if not values.is_list or not values.value:
+            raise values.wrong(f"vary.{key} is no list of values", f"Write {key}: [..., ...].")
+        for value in values.value:
+            if key == "ranks":
+                whole_number(value, "ranks", 1)
+    return node.value
+
+
+def level_keys(along, varied, combinations):
+    """Keys that make up a level: the one that refines, and those of runs that it determines, such
+    as the cells of a load cell that keeps its thickness. Those of the method never do."""
+    found = [along] if along else []
+    for key in varied if along else []:
+        pairs = {(run.value(along), run.value(key)) for run in combinations}
+        levels, values = ({pair[k] for pair in pairs} for k in (0, 1))
+        if (key not in (along, "ranks") and not key.startswith("numerics.") and len(values) > 1
+                and len(pairs) == len(levels)):
+            found.append(key)
+    return tuple(found)
+
+
+def read_combinations(keys, default_ranks):
+    """Every combination of the lists of `vary` with every entry of `runs`."""
+    lists = _lists(keys["vary"]) if "vary" in keys else {}
+    entries = [{}]
+    if "runs" in keys:
+        node = keys["runs"]
+        if not node.is_list or not node.value:
+            raise node.wrong("runs is no list", "Write a list of maps: "
+                             "- {numerics.scheme: apic, numerics.cfl: 0.5}.")
+        entries = [settings_of(entry, "an entry of runs") for entry in node.value]
+    varied = list(dict.fromkeys(itertools.chain(lists, *entries)))
+    for entry in entries:
+        for key in entry:
+            if key in lists:
+                raise entry[key].wrong(f"{key} is varied too", "Set it in vary or in runs.")
+    found, nodes = [], {}
+    for entry in entries:
+        for values in itertools.product(*(node.value for node in lists.values())):
+            chosen = {**dict(zip(lists, values)), **entry}
+            nodes.update({key: nodes.get(key, node) for key, node in chosen.items()})
+            ranks = int(chosen["ranks"].value) if "ranks" in chosen else default_ranks
+            settings = tuple((key, chosen[key].text) for key in varied
+                             if key in chosen and key != "ranks")
+            found.append(Combination(settings, ranks))
+    return list(dict.fromkeys(found)), varied, nodes

@@ -1,0 +1,76 @@
+"""Figures out of what mpm_par leaves behind: summary.json and history.csv. SI units."""
+import csv
+
+import numpy
+
+CURVE_POINTS = 600  # evenly over a range of strain
+
+
+class Missing(Exception):
+    """The figure is not there; the text says why."""
+
+
+def figure(summary, path):
+    """The number at a dotted path of the summary."""
+    found = summary
+    for word in path.split("."):
+        if found is None:
+            break
+        if not isinstance(found, dict) or word not in found:
+            raise Missing(f"summary.json has no {path}")
+        found = found[word]
+    if found is None:
+        remark = (summary.get("compression") or {}).get("remark") or "not reached or not distinct"
+        raise Missing(f"no {path}: {remark}")
+    if isinstance(found, bool) or not isinstance(found, (int, float)):
+        raise Missing(f"{path} is no number")
+    if not numpy.isfinite(found):
+        raise Missing(f"{path} is not finite")
+    return float(found)
+
+
+def read_history(path):
+    """Columns by name, without units."""
+    with open(path, newline="", encoding="utf-8") as file:
+        header, *lines = list(csv.reader(file)) or [[]]
+    values = numpy.array([[float(cell) for cell in line] for line in lines])
+    return {title.split("[")[0].strip(): values[:, k] for k, title in enumerate(header)} \
+        if len(lines) else {}
+
+
+def curve(path, column, begin, end):
+    """`column` at CURVE_POINTS strains from begin to end, straight lines between the history's.
+
+    Stresses are means since the last line: they belong to the middle of that interval."""
+    history = read_history(path)
+    for name in ("strain", column):
+        if name not in history:
+            raise Missing(f"history.csv has no column {name}")
+    strain, values = history["strain"], history[column]
+    if strain[-1] < end * (1 - 1e-6):
+        raise Missing(f"the run ends at {100 * strain[-1]:.3g} % strain, before {100 * end:.3g} %")
+    if column.startswith("stress"):
+        strain = numpy.append(strain[0], 0.5 * (strain[1:] + strain[:-1]))
+    found = numpy.interp(numpy.linspace(begin, end, CURVE_POINTS), strain, values)
+    if not numpy.isfinite(found).all():
+        raise Missing(f"{column} is not finite")
+    return found
+
+
+def mean(path, column, begin, end):
+    """The mean of a column over a range of strain."""
+    return float(curve(path, column, begin, end).mean())
+
+
+def value(measure, done):
+    """The figure, or the curve, of a measure out of a run."""
+    if measure.kind == "of":
+        return figure(done.summary, measure.path)
+    read = curve if measure.kind == "curve" else mean
+    return read(done.folder / "history.csv", measure.column, *measure.strain)
+
+
+def relative_error(found, reference):
+    """|found - reference| / |reference|, of curves in the 2-norm."""
+    return float(numpy.linalg.norm(numpy.atleast_1d(found - reference))
+                 / numpy.linalg.norm(numpy.atleast_1d(reference)))

@@ -1,0 +1,96 @@
+"""A study from its file to its tables and plots."""
+import time
+
+import machine
+import store
+import study_file
+from problems import DONE, NoResult
+from yaml_tree import read_yaml
+
+
+WIDTH = 80  # columns of the terminal
+
+
+def check_keys(study, program):
+    """A key that no scene knows is a mistake in the study file; a value that this scene does not
+    bear is a row of the table."""
+    for key, node in study.nodes.items():
+        if key == "ranks":
+            continue
+        for said in program.check(study.scene, [(key, node.text)]):
+            if said.startswith(f"--set {key}=") and ": unknown key" in said:
+                raise node.wrong(f"{key} is no key of the scene", said.split(": ", 1)[1])
+
+
+def _name(study, combination):
+    """Values of what varies, for the line that tells of the run."""
+    words = [value for _, value in combination.settings]
+    if "ranks" in study.varied:
+        words.append(f"{combination.ranks} ranks")
+    return ", ".join(words) or "the scene as it is"
+
+
+def _is_bad(done):
+    return done.ended.exit_status != DONE or done.ended.stopped
+
+
+def run_all(study, program, kept, say=print):
+    """All rounds in turn: every run once, then every run again. Returns a list of rounds for each
+    combination. What failed, and what is only for the reference, is not repeated."""
+    rounds = [[] for _ in study.combinations]
+    before = 0
+    for turn in range(1, study.repeat + 1):
+        for k, combination in enumerate(study.combinations):
+            if turn > 1 and (_is_bad(rounds[k][0]) or combination.only_reference):
+                continue
+            assignments = study.assignments(combination)
+            done = kept.find(assignments, combination.ranks, turn, study.time_limit)
+            if done:
+                before += 1
+            else:
+                done = kept.run(program, study.scene, assignments, combination.ranks, turn,
+                                study.time_limit)
+                end = f"failed: {done.ended.message}" if _is_bad(done) else \
+                    f"{done.ended.elapsed_seconds:.1f} s"
+                line = (f"round {turn}/{study.repeat} run {k + 1}/{len(rounds)}: "
+                        f"{_name(study, combination)}: {end}")
+                say(line if len(line) <= WIDTH else line[:WIDTH - 2] + "..")
+            rounds[k].append(done)
+    if before:
+        say(f"{before} runs were done before")
+    return rounds
+
+
+def provenance(study, program):
+    """What it takes to do the study again."""
+    return {"study": study.path.name, "scene": study.scene.name,
+            "study_text": study.path.read_text(encoding="utf-8"),
+            "scene_text": study.scene.read_text(encoding="utf-8"),
+            "written": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
+            "mpm_par": program.version, "mpm_par_sha256": program.identity,
+            "machine": machine.machine()}
+
+
+def run(given, program, output):
+    """Runs what is not done, then writes study.csv, study.json and the plots into `output`."""
+    study = study_file.read_study(given.file, given.quick, given.ranks)
+    check_keys(study, program)
+    output.mkdir(parents=True, exist_ok=True)
+    trees = [read_yaml(study.scene), *study.nodes.values()]
+    kept = store.Store(output, store.scene_print(study.scene, trees), program.identity)
+    rounds = run_all(study, program, kept, lambda line: print(line, flush=True))
+
+    import evaluation  # after the runs: NumPy and Matplotlib are large (see program.py)
+    import plot
+    import tables
+    rows = [evaluation.row_of(study, *pair) for pair in zip(study.combinations, rounds)]
+    outcomes = [evaluation.outcome_of(study, measure, rows) for measure in study.measures]
+    store.write_whole(output / "study.csv", tables.csv_text(study, rows))
+    store.write_whole(output / "study.json",
+                      tables.json_text(study, rows, outcomes, provenance(study, program)))
+    paths = [path for outcome in outcomes for path in plot.draw(study, rows, outcome, output)]
+    print(tables.terminal_text(study, rows, outcomes), end="")
+    print("".join(f"  {path}\n" for path in paths), end="", flush=True)
+    if not any(value is not None for row in rows for value in row.values.values()):
+        raise NoResult(f"{study.path}: no run gave a figure. The reasons are in "
+                       f"{output / 'study.csv'}.")

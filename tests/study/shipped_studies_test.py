@@ -1,0 +1,34 @@
+"""Every shipped study is read, in full and quick, and its exact figures are those of formulae."""
+import math
+import pathlib
+import unittest
+
+import study_file
+
+STUDIES = sorted((pathlib.Path(__file__).parents[2] / "inputs" / "studies").glob("*.yaml"))
+
+
+class ShippedStudies(unittest.TestCase):
+    def test_are_understood_in_both_variants(self):
+        self.assertGreaterEqual(len(STUDIES), 4)
+        for path in STUDIES:
+            with self.subTest(path.name):
+                full, quick = (study_file.read_study(path, quick=way) for way in (False, True))
+                self.assertLess(len(quick.combinations) * quick.repeat,
+                                len(full.combinations) * full.repeat)
+                self.assertIsNotNone(full.along)
+
+    def test_the_block_is_compared_with_its_exact_line(self):
+        """Mean of - M ln(1 - e)/(1 - e) over the strains, M = E (1 - nu)/((1 + nu)(1 - 2 nu))."""
+        modulus = 50e9 * 0.7 / (1.3 * 0.4)
+        for name in ("confined_block", "block_levels"):
+            study = study_file.read_study(next(p for p in STUDIES if p.stem == name))
+            for measure in study.measures:
+                begin, end = measure.strain
+                mean = modulus / 2 * (math.log(1 - end) ** 2 - math.log(1 - begin) ** 2) \
+                    / (end - begin)
+                self.assertAlmostEqual(measure.against / mean, 1, places=6, msg=measure.name)
+
+
+if __name__ == "__main__":
+    unittest.main()
