@@ -102,7 +102,7 @@ def draw(columns, properties, title, path):
     axes.set(xlabel="compressive strain (%)", ylabel="compressive stress (MPa)", title=title,
              xlim=(0, max(strain)), ylim=(min(0, max(min(finite, default=0), -0.1 * top)), top))
     axes.grid(color="#dddddd", lw=0.6)
-    axes.legend(frameon=False, loc="upper left")
+    axes.legend(frameon=False, loc="best")
     figure.savefig(path, dpi=160)
 
 
