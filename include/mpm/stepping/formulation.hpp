@@ -46,8 +46,9 @@ class Formulation {
   /// Every `steps_between_checks` steps it ends with `check`.
   virtual void step(double dt) = 0;
   static constexpr GlobalIndex steps_between_checks = 20;
-  /// Throws NumericalError on every rank if a particle of any rank was lost or stopped being a
-  /// number since the last check; what is measured after that means nothing.
+  /// Throws NumericalError on every rank if a particle of any rank was lost, was turned inside out
+  /// or stopped being a number since the last check, or has a volume ratio beyond its bounds; what
+  /// is measured after that means nothing.
   virtual void check() = 0;
   virtual const Agreed& agreed() const = 0;
 
