@@ -75,6 +75,9 @@ class Formulation {
   virtual Counters counters() const = 0;
   virtual std::size_t bytes() const = 0;  ///< of particle and node arrays on this rank
   virtual void archive(Archive& archive) = 0;
+  /// Takes up these cells without any particle: `archive` is about to load a state that was saved
+  /// on them. Whatever ended the run is forgotten.
+  virtual void begin_loading(const Ownership<Dim>& ownership) = 0;
 
   LocalIndex particles() const
   {

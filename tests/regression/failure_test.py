@@ -1,0 +1,123 @@
+"""A run that fails says where and why, leaves its last sound state, and can go on from it."""
+import os
+import pathlib
+import re
+import unittest
+
+import h5py
+
+from program import History, ProgramTest, mpm_par, summary
+
+PROJECT = pathlib.Path(__file__).parents[2]
+PAST_THE_LIMIT = PROJECT / "inputs" / "stability" / "past_the_limit.yaml"
+
+STEP = re.compile(r"step (\d+), t = (\S+) s")
+LAST_SOUND = re.compile(r"The last sound state \(step (\d+), t = (\S+) s\) is in (\S+)\.")
+
+SQUEEZED = """
+material: {law: isotropic, youngs_modulus: 1 GPa, poisson_ratio: 0, density: 1000 kg/m^3}
+specimen:
+  size: [1 mm, 1 mm]
+  shapes:
+    - box: {lower: [0 mm, 0 mm], upper: [1 mm, 1 mm]}
+  initial_velocity: ["SPEED", 0 m/s]
+grid: {cells: [10, 10], margin: [2 mm, 2 mm, 0 mm, 0 mm]}
+numerics: {cfl: 2, update_order: ORDER}
+free_motion: {end_time: 20 us, sides: [free, free, symmetric, symmetric]}
+output: {snapshots: 0}
+"""
+
+
+class Failure(ProgramTest):
+    def run_past_the_limit(self, label, *settings, ranks=1):
+        folder = self.folder / label
+        options = [word for setting in settings for word in ("--set", setting)]
+        return folder, mpm_par(PAST_THE_LIMIT, "--output", folder, *options, ranks=ranks)
+
+    def check_stopped(self, folder, run):
+        self.assertEqual(run.returncode, 3, run.stderr + run.stdout)
+        self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+        self.assertIn("body 'cell_wall'", run.stderr)
+        self.assertRegex(run.stderr.lower(), r"particle \d+ of body")
+        self.assertIn("Likely cause: numerics.cfl is 1.9, beyond 1.75", run.stderr)
+        self.assertFalse((folder / "summary.json").exists(), "the run did not end well")
+        failed = STEP.search(run.stderr)
+        step, time, place = LAST_SOUND.search(run.stderr).groups()
+        self.assertLess(int(step), int(failed[1]))
+        self.assertTrue(pathlib.Path(place).exists(), place)
+        with h5py.File(folder / "failure" / "snapshots" / "000000.h5") as file:
+            self.assertEqual(file.attrs["step"], int(step))
+            self.assertAlmostEqual(file.attrs["time"], float(time), delta=1e-5 * float(time))
+            self.assertEqual(file["particles/position"].shape, (1600, 3))
+            self.assertLess(abs(file["particles/position"][:, 0]).max(), 4.1e-3)
+
+    def test_a_step_past_the_limit_stops_every_rank_once_with_a_snapshot(self):
+        for ranks in 1, 2:
+            folder, run = self.run_past_the_limit(f"on_{ranks}", ranks=ranks)
+            self.check_stopped(folder, run)
+
+    def test_retry_goes_back_and_ends_as_a_short_step_does(self):
+        short, run = self.run_past_the_limit("short", "numerics.cfl=0.475")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        exact = History(short)
+        for ranks in 1, 2:
+            folder, run = self.run_past_the_limit(f"retry_{ranks}", "numerics.recovery=retry",
+                                                  "numerics.repartition_interval=70",
+                                                  ranks=ranks)
+            self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+            self.assertEqual(run.stdout.count("Went back to step"), 1, run.stdout)
+            found = summary(folder)
+            self.assertEqual(found["recoveries"], 1)
+            self.assertEqual(found["recovery"]["step_share"], 0.5)
+            self.assertGreater(found["recovery"]["repeated_steps"], 0)
+            self.assertIn("Went back to step", found["recovery"]["reports"][0])
+            self.check_history(History(folder), exact)
+            self.check_snapshots(folder)
+            self.assertFalse((folder / "failure").exists(), "the run ended well")
+
+    def check_history(self, history, exact):
+        """Every line once; energies as with a short step, within the error of the long one."""
+        times = history["time"]
+        self.assertEqual(len(times), len(exact))
+        self.assertEqual(times, sorted(set(times)))
+        scale = exact["kinetic_energy"][0]
+        for name in "kinetic_energy", "elastic_energy":
+            # A line is up to a step late: 4 % of the energy at its fastest turn. A line of the run
+            # that failed would be off by many times the whole.
+            worst = max(abs(a - b) for a, b in zip(history[name], exact[name]))
+            self.assertLess(worst, 0.06 * scale, name)
+        self.assertLess(max(map(abs, history["energy_error"])), 0.05)
+
+    def check_snapshots(self, folder):
+        """Three of them, in order, none of what has not been."""
+        files = sorted((folder / "snapshots").iterdir())
+        self.assertEqual([file.name for file in files], [f"{k:06}.h5" for k in range(3)])
+        for file, time in zip(files, (0, 30e-6, 60e-6)):
+            with h5py.File(file) as snapshot:
+                self.assertAlmostEqual(snapshot.attrs["time"], time, delta=1e-7)
+        text = (folder / "past_the_limit.xdmf").read_text()
+        self.assertEqual(text.count("000001.h5:/particles/position"), 1)
+
+    def test_retries_end_after_a_stated_number(self):
+        # Only a fraction of the step is stable.
+        folder, run = self.run_past_the_limit("hopeless", "numerics.recovery=retry",
+                                              "numerics.update_order=usl", "numerics.cfl=2",
+                                              "numerics.shape_function=linear")
+        self.assertEqual(run.returncode, 3, run.stderr + run.stdout)
+        self.assertEqual(run.stdout.count("Went back to step"), 4, run.stdout)
+        self.assertIn("This was attempt 5, with 0.0625 of the step.", run.stderr)
+
+    def test_a_particle_turned_inside_out_is_named(self):
+        # Velocities that close a particle within a step: dv/dx dt below -1.
+        for order in "musl", "usf", "usl":
+            text = SQUEEZED.replace("ORDER", order).replace("SPEED", "-8000*(x - 0.0005)/0.0001")
+            file = self.folder / f"squeezed_{order}.yaml"
+            file.write_text(text)
+            run = mpm_par(file, "--output", self.folder / order, ranks=2)
+            self.assertEqual(run.returncode, 3, run.stderr + run.stdout)
+            self.assertRegex(run.stderr, r"particle \d+ of body 'cell_wall' was turned inside out, "
+                                         r"det\(I \+ dt L\) = -")
+
+
+if __name__ == "__main__":
+    unittest.main()
