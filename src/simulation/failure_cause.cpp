@@ -32,7 +32,7 @@ std::string likely_cause(const Preparation<Dim>& preparation, GlobalIndex partic
 {
   const scene::Numerics& numerics = preparation.scene.numerics;
   const Layout<Dim>& layout = preparation.layout;
-  const auto limit = stable_cfl(*numerics.shape_function, *numerics.scheme, *numerics.update_order);
+  const auto limit = stable_cfl_of(numerics);
   if (limit && layout.cfl > *limit)
     return fmt::format(
         " Likely cause: numerics.cfl is {:.3g}, beyond {:.3g}, the limit of {} with {} and {}. "

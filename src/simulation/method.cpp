@@ -7,11 +7,15 @@
 
 namespace mpm {
 
+std::optional<double> stable_cfl_of(const scene::Numerics& numerics)
+{
+  return stable_cfl(*numerics.shape_function, *numerics.scheme, *numerics.update_order);
+}
+
 double default_cfl(const scene::Numerics& numerics)
 {
   if (numerics.cfl) return *numerics.cfl;
-  const auto stable =
-      stable_cfl(*numerics.shape_function, *numerics.scheme, *numerics.update_order);
+  const auto stable = stable_cfl_of(numerics);
   if (!stable) throw InputError("no time step is stable with this shape function");
   return numerics.shape_function->cfl_share * *stable;
 }

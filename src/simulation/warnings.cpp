@@ -34,11 +34,12 @@ void look_at_walls(const micrograph::Specimen<Dim>& specimen, const micrograph::
                     "of percent. Refine grid.cells, or quote no figure without a finer run.",
                     100 * thin));
   if (!specimen.picture() || specimen.picture()->unconnected == 0) return;
-  warnings.push_back(fmt::format(
-      "{} locations, {:.2g} % of the wall, are in pieces that do not hang on the largest: they fly "
-      "about until they are caught. Set specimen.remove_unconnected: true.",
-      specimen.picture()->unconnected,
-      100 * double(specimen.picture()->unconnected) / double(specimen.particles())));
+  warnings.push_back(
+      fmt::format("{:.2g} % of the wall ({} of {} particles) is in pieces that do not hang on the "
+                  "largest: they "
+                  "fly about until they are caught. Set specimen.remove_unconnected: true.",
+                  100 * double(specimen.picture()->unconnected) / double(specimen.particles()),
+                  specimen.picture()->unconnected, specimen.particles()));
 }
 
 /// Deformable particles in each layer across an axis, of the whole specimen. Collective.
@@ -128,8 +129,8 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
     warnings.push_back(fmt::format(
         "numerics.cfl is {:.3g}, beyond {:.3g}, the limit of {} with {} and {}: noise will grow. "
         "Leave it out: the default keeps a margin.",
-        layout.cfl, *limit, scene.numerics.shape_function->keyword,
-        scene.numerics.scheme->keyword, scene.numerics.update_order->keyword));
+        layout.cfl, *limit, scene.numerics.shape_function->keyword, scene.numerics.scheme->keyword,
+        scene.numerics.update_order->keyword));
   if (const double steps = expected_steps(scene, layout); steps > many_steps)
     warnings.push_back(
         fmt::format("the run takes {:.2g} steps or more, over which rounding adds up. Raise the "

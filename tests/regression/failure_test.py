@@ -1,15 +1,16 @@
 """A run that fails says where and why, leaves its last sound state, and can go on from it."""
-import os
 import pathlib
 import re
 import unittest
-
-import h5py
+import xml.etree.ElementTree
 
 from program import History, ProgramTest, mpm_par, summary
 
 PROJECT = pathlib.Path(__file__).parents[2]
 PAST_THE_LIMIT = PROJECT / "inputs" / "stability" / "past_the_limit.yaml"
+
+# Of the snapshots; the first two are before the failure.
+TIMES = (0, 2e-6, 30e-6, 60e-6)
 
 STEP = re.compile(r"step (\d+), t = (\S+) s")
 LAST_SOUND = re.compile(r"The last sound state \(step (\d+), t = (\S+) s\) is in (\S+)\.")
@@ -20,12 +21,23 @@ specimen:
   size: [1 mm, 1 mm]
   shapes:
     - box: {lower: [0 mm, 0 mm], upper: [1 mm, 1 mm]}
-  initial_velocity: ["SPEED", 0 m/s]
+  initial_velocity: ["x < 0.00055 ? 2000 : -2000", 0 m/s]
 grid: {cells: [10, 10], margin: [2 mm, 2 mm, 0 mm, 0 mm]}
-numerics: {cfl: 2, update_order: ORDER}
+numerics: {cfl: 1.4, update_order: ORDER}
 free_motion: {end_time: 20 us, sides: [free, free, symmetric, symmetric]}
 output: {snapshots: 0}
 """
+
+
+def snapshots_of(series):
+    """What an XDMF file says of each moment, and the size of the file that holds it."""
+    found = []
+    for grid in xml.etree.ElementTree.parse(series).findall("Domain/Grid/Grid"):
+        file = grid.find("Geometry/DataItem").text.split(":")[0].strip()
+        found.append({"time": float(grid.find("Time").get("Value")),
+                      "particles": int(grid.find("Topology").get("NumberOfElements")),
+                      "bytes": (series.parent / file).stat().st_size})
+    return found
 
 
 class Failure(ProgramTest):
@@ -45,11 +57,11 @@ class Failure(ProgramTest):
         step, time, place = LAST_SOUND.search(run.stderr).groups()
         self.assertLess(int(step), int(failed[1]))
         self.assertTrue(pathlib.Path(place).exists(), place)
-        with h5py.File(folder / "failure" / "snapshots" / "000000.h5") as file:
-            self.assertEqual(file.attrs["step"], int(step))
-            self.assertAlmostEqual(file.attrs["time"], float(time), delta=1e-5 * float(time))
-            self.assertEqual(file["particles/position"].shape, (1600, 3))
-            self.assertLess(abs(file["particles/position"][:, 0]).max(), 4.1e-3)
+        (found,) = snapshots_of(pathlib.Path(place))
+        self.assertAlmostEqual(found["time"], float(time), delta=1e-5 * float(time))
+        self.assertEqual(found["particles"], 1600)
+        # x, y, z of every particle at least.
+        self.assertGreater(found["bytes"], 1600 * 3 * 8)
 
     def test_a_step_past_the_limit_stops_every_rank_once_with_a_snapshot(self):
         for ranks in 1, 2:
@@ -62,7 +74,7 @@ class Failure(ProgramTest):
         exact = History(short)
         for ranks in 1, 2:
             folder, run = self.run_past_the_limit(f"retry_{ranks}", "numerics.recovery=retry",
-                                                  "numerics.repartition_interval=70",
+                                                  "numerics.repartition_interval=10",
                                                   ranks=ranks)
             self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
             self.assertEqual(run.stdout.count("Went back to step"), 1, run.stdout)
@@ -91,12 +103,11 @@ class Failure(ProgramTest):
     def check_snapshots(self, folder):
         """Three of them, in order, none of what has not been."""
         files = sorted((folder / "snapshots").iterdir())
-        self.assertEqual([file.name for file in files], [f"{k:06}.h5" for k in range(3)])
-        for file, time in zip(files, (0, 30e-6, 60e-6)):
-            with h5py.File(file) as snapshot:
-                self.assertAlmostEqual(snapshot.attrs["time"], time, delta=1e-7)
-        text = (folder / "past_the_limit.xdmf").read_text()
-        self.assertEqual(text.count("000001.h5:/particles/position"), 1)
+        self.assertEqual([file.name for file in files], [f"{k:06}.h5" for k in range(len(TIMES))])
+        found = snapshots_of(folder / "past_the_limit.xdmf")
+        self.assertEqual(len(found), len(TIMES))
+        for snapshot, time in zip(found, TIMES):
+            self.assertAlmostEqual(snapshot["time"], time, delta=1e-7)
 
     def test_retries_end_after_a_stated_number(self):
         # Only a fraction of the step is stable.
@@ -108,11 +119,10 @@ class Failure(ProgramTest):
         self.assertIn("This was attempt 5, with 0.0625 of the step.", run.stderr)
 
     def test_a_particle_turned_inside_out_is_named(self):
-        # Velocities that close a particle within a step: dv/dx dt below -1.
+        # Two halves meet at twice the fastest wave, within a cell: dv/dx dt is below -1 there.
         for order in "musl", "usf", "usl":
-            text = SQUEEZED.replace("ORDER", order).replace("SPEED", "-8000*(x - 0.0005)/0.0001")
             file = self.folder / f"squeezed_{order}.yaml"
-            file.write_text(text)
+            file.write_text(SQUEEZED.replace("ORDER", order))
             run = mpm_par(file, "--output", self.folder / order, ranks=2)
             self.assertEqual(run.returncode, 3, run.stderr + run.stdout)
             self.assertRegex(run.stderr, r"particle \d+ of body 'cell_wall' was turned inside out, "

@@ -119,7 +119,7 @@ class Warnings(ProgramTest):
                         "grid: {cells: [20, 20]}\nsteps: 2\noutput: {snapshots: 0}\n"
                         "loading: {piston: right, speed: 1 m/s}\n")
         # 36 of 12 * 40 + 36 locations.
-        self.assert_only(self.warnings_of(file), "36 locations, 7 % of the wall",
+        self.assert_only(self.warnings_of(file), "7 % of the wall (36 of 516 particles)",
                          "specimen.remove_unconnected: true")
         self.assertEqual(self.warnings_of(file, "specimen.remove_unconnected=true"), [])
 

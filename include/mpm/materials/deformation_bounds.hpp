@@ -13,6 +13,7 @@ inline constexpr double least_volume_ratio = 0.01, largest_volume_ratio = 100;
 struct BeyondBounds {
   LocalIndex particle;
   double volume_ratio;
+  bool operator==(const BeyondBounds&) const = default;
 };
 
 /// The first particle whose J is beyond the bounds, or no number.

@@ -19,7 +19,7 @@ template <int Dim>
 class EnergyMonitor {
  public:
   /// Of the turnover. docs/theory.md has what sound runs reach.
-  static constexpr double bound = 0.25;
+  static constexpr double bound = 0.1;
 
   /// kg, and m/s. `largest_speed`: of what is moved from outside.
   EnergyMonitor(double mass, double wave_speed, double largest_speed);

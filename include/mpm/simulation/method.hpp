@@ -10,6 +10,8 @@
 
 namespace mpm {
 
+/// Of its shape function, scheme and update order together.
+std::optional<double> stable_cfl_of(const scene::Numerics& numerics);
 double default_cfl(const scene::Numerics& numerics);
 template <int Dim>
 TimeStep time_step_of(const Layout<Dim>& layout);
