@@ -21,19 +21,32 @@ std::vector<IndexVec<Dim>> disc_of(int across)
   return disc;
 }
 
+/// Of a location beyond the specimen the one that stands for it.
+template <int Dim>
+IndexVec<Dim> mirrored(IndexVec<Dim> at, const IndexVec<Dim>& count)
+{
+  for (int d = 0; d < Dim; ++d) {
+    if (at[d] < 0) at[d] = -1 - at[d];
+    if (at[d] >= count[d]) at[d] = 2 * count[d] - 1 - at[d];
+  }
+  return at;
+}
+
 }  // namespace
 
 template <int Dim>
-ThinCount count_thin(const Specimen<Dim>& specimen, const IndexBox<Dim>& part, int cells)
+ThinCount count_thin(const Specimen<Dim>& specimen, std::span<const scene::Material> materials,
+                     const IndexBox<Dim>& part, int cells)
 {
   const int across = cells * specimen.particles_per_cell();
   // A disc is known by the first corner of the square around it.
   const IndexBox<Dim> first{part.lower - IndexVec<Dim>::Constant(across - 1), part.upper};
   const IndexBox<Dim> seen{first.lower, part.upper + IndexVec<Dim>::Constant(across - 1)};
   const Lattice<Dim> lattice = specimen.lattice(intersection(seen, specimen.whole()));
-  std::vector<char> filled(std::size_t(seen.size()), 1), covered(filled.size(), 0);
-  for_each_index(lattice.part, [&](const IndexVec<Dim>& at) {
-    filled[number_in(seen, at)] = lattice(at) != lattice.empty;
+  std::vector<char> filled, covered(std::size_t(seen.size()), 0);
+  filled.reserve(covered.size());
+  for_each_index(seen, [&](const IndexVec<Dim>& at) {
+    filled.push_back(lattice(mirrored<Dim>(at, specimen.count())) != lattice.empty);
   });
   std::vector<LocalIndex> disc;
   for (const IndexVec<Dim>& offset : disc_of<Dim>(across))
@@ -45,21 +58,23 @@ ThinCount count_thin(const Specimen<Dim>& specimen, const IndexBox<Dim>& part, i
   });
   ThinCount count;
   for_each_index(part, [&](const IndexVec<Dim>& at) {
-    const LocalIndex place = number_in(seen, at);
-    count.filled += filled[place];
-    count.thin += filled[place] && !covered[place];
+    const std::int8_t material = lattice(at);
+    if (material == lattice.empty || !materials[std::size_t(material)].law->deformable()) return;
+    ++count.filled;
+    count.thin += !covered[number_in(seen, at)];
   });
   return count;
 }
 
 template <int Dim>
-ThinCount count_thin(const Specimen<Dim>& specimen, int cells, const Share& share)
+ThinCount count_thin(const Specimen<Dim>& specimen, std::span<const scene::Material> materials,
+                     int cells, const Share& share)
 {
   constexpr GlobalIndex chunk_locations = 1 << 20;  // held at a time
   std::array<double, 2> sums{};
   for_each_chunk(slab(specimen.whole(), share.part, share.parts), chunk_locations,
                  [&](const IndexBox<Dim>& chunk) {
-                   const ThinCount count = count_thin(specimen, chunk, cells);
+                   const ThinCount count = count_thin(specimen, materials, chunk, cells);
                    sums[0] += double(count.filled);
                    sums[1] += double(count.thin);
                  });
@@ -67,9 +82,13 @@ ThinCount count_thin(const Specimen<Dim>& specimen, int cells, const Share& shar
   return {GlobalIndex(sums[0]), GlobalIndex(sums[1])};
 }
 
-template ThinCount count_thin(const Specimen<2>&, const IndexBox<2>&, int);
-template ThinCount count_thin(const Specimen<3>&, const IndexBox<3>&, int);
-template ThinCount count_thin(const Specimen<2>&, int, const Share&);
-template ThinCount count_thin(const Specimen<3>&, int, const Share&);
+template ThinCount count_thin(const Specimen<2>&, std::span<const scene::Material>,
+                              const IndexBox<2>&, int);
+template ThinCount count_thin(const Specimen<3>&, std::span<const scene::Material>,
+                              const IndexBox<3>&, int);
+template ThinCount count_thin(const Specimen<2>&, std::span<const scene::Material>, int,
+                              const Share&);
+template ThinCount count_thin(const Specimen<3>&, std::span<const scene::Material>, int,
+                              const Share&);
 
 }  // namespace mpm::micrograph

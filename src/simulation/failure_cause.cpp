@@ -22,7 +22,9 @@ bool was_thin(const Preparation<Dim>& preparation, GlobalIndex particle)
     place.upper[d] = place.lower[d] + 1;
     particle /= specimen.count()[d];
   }
-  return micrograph::count_thin(specimen, place, micrograph::thin_wall_cells).thin > 0;
+  return micrograph::count_thin(specimen, std::span(preparation.scene.materials), place,
+                                micrograph::thin_wall_cells)
+             .thin > 0;
 }
 
 }  // namespace

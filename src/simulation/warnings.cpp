@@ -23,10 +23,11 @@ constexpr double many_steps = 1e8;
 using Warnings = std::vector<std::string>;
 
 template <int Dim>
-void look_at_walls(const micrograph::Specimen<Dim>& specimen, const micrograph::Share& share,
-                   Warnings& warnings)
+void look_at_walls(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+                   const micrograph::Share& share, Warnings& warnings)
 {
-  const auto count = micrograph::count_thin(specimen, micrograph::thin_wall_cells, share);
+  const auto count = micrograph::count_thin(specimen, std::span(scene.materials),
+                                            micrograph::thin_wall_cells, share);
   const double thin = double(count.thin) / double(std::max<GlobalIndex>(count.filled, 1));
   if (thin > thin_share)
     warnings.push_back(
@@ -121,7 +122,7 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
                                      const Layout<Dim>& layout, const micrograph::Share& share)
 {
   Warnings warnings;
-  look_at_walls(specimen, share, warnings);
+  look_at_walls(scene, specimen, share, warnings);
   look_at_speed(scene, specimen, layout, warnings);
   if (std::holds_alternative<scene::Loading>(scene.motion))
     look_at_reach(scene, specimen, layout, share, warnings);

@@ -40,14 +40,14 @@ std::string words_for(const typename Exchange<Dim>::Loss& loss, const GridGeomet
         lost.id, loss.body, what, text_of<Dim>(lost.position, 6), loss.moment.step,
         loss.moment.time, text_of<Dim>(lost.velocity, 4), remedy);
   };
-  if (lost.fault == Fault::inverted)
+  if (lost.fault == Fault::inverted && std::isfinite(lost.ratio))
     return tell(fmt::format("was turned inside out, det(I + dt L) = {:.3g},", lost.ratio),
                 "Lower numerics.cfl.");
-  if (lost.fault == Fault::beyond_bounds)
+  if (lost.fault == Fault::beyond_bounds && std::isfinite(lost.ratio))
     return tell(fmt::format("has {:.3g} times its first volume, bounds are {} and {},", lost.ratio,
                             least_volume_ratio, largest_volume_ratio),
                 "Lower numerics.cfl, or give it a stiffer material.");
-  bool outside = false, finite = true;
+  bool outside = false, finite = std::isfinite(lost.ratio);
   for (int d = 0; d < Dim; ++d) {
     finite = finite && std::isfinite(lost.position[d]) && std::isfinite(lost.velocity[d]);
     if (geometry.periodic[d]) continue;

@@ -70,9 +70,8 @@ class Warnings(ProgramTest):
         self.assertEqual(self.warnings(TWO_CELLS), [])
 
     def test_thin_walls(self):
-        # All but their ends at the border, beyond which everything counts as filled.
         self.assert_only(self.warnings(THIN, "loading.piston=top"),
-                         "95 % of the wall is thinner than two cells", "grid.cells")
+                         "100 % of the wall is thinner than two cells", "grid.cells")
         # As thin on a grid that is finer: three cells.
         self.assertEqual(self.warnings(THIN, "loading.piston=top", "grid.cells=[40, 40]"), [])
 
