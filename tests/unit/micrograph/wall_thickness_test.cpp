@@ -74,7 +74,7 @@ TEST(WallThickness, AWallThatTheBorderCutsIsNotThinForThat)
 TEST(WallThickness, WhatIsRigidFillsAndDoesNotCount)
 {
   scene::Scene scene = scene_of(12, {wall(3, 4.5), wall(4.5, 5)});
-  scene.materials.push_back({.name = "rigid", .law = "rigid"});
+  scene.materials.push_back({.name = "rigid", .law = "rigid", .values = {}});
   scene.specimen.shapes[1].material = "rigid";
   const ThinCount count = thin_in(scene);
   EXPECT_EQ(count.filled, 3 * 24);
