@@ -177,6 +177,19 @@ class Hencky final : public Law<2> {
            (0.5 * bulk_ * trace * trace + mu_ * (6.0 * d * d + 0.5 * e.plane.difference_squared));
   }
 
+  /// Plastic flow keeps the volume: J = sqrt(det b_e).
+  Lanes volume_ratio(const double* s) const override
+  {
+    const Lanes in_plane =
+        stdx::sqrt(at(s, be_xx) * at(s, be_yy) - at(s, be_xy) * at(s, be_xy));
+    if constexpr (carries_zz)
+      return in_plane * lane_exp(at(s, log_zz));
+    else if constexpr (plane_strain)
+      return in_plane;
+    else
+      return in_plane * lane_exp(zz_over_sum() * lane_log(in_plane));
+  }
+
   double wave_speed() const override
   {
     return std::sqrt(elastic_.in_plane_modulus(Plane) / density_);

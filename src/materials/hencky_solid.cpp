@@ -80,6 +80,12 @@ class HenckySolid final : public Law<3> {
     return at(s, volume) * (0.5 * bulk_ * e.trace * e.trace + mu_ * e.deviator.squared());
   }
 
+  /// Plastic flow keeps the volume: J = sqrt(det b_e).
+  Lanes volume_ratio(const double* s) const override
+  {
+    return stdx::sqrt(elastic_left_cauchy_green(s).determinant());
+  }
+
   double wave_speed() const override { return wave_speed_; }
 
   Lanes fastest_wave_squared(const double* state) const override

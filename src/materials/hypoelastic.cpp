@@ -102,9 +102,7 @@ class Hypoelastic final : public Law<2> {
 
   void cauchy_stress(const double* s, double* out) const override
   {
-    Lanes j = at(s, f_xx) * at(s, f_yy) - at(s, f_xy) * at(s, f_yx);
-    if constexpr (!plane_strain) j *= lane_exp(at(s, third));
-    const Lanes inverse_j = 1.0 / j;
+    const Lanes inverse_j = 1.0 / volume_ratio(s);
     const Symmetric tau = stress(s).turned(rotation(s));
     store(tau.xx * inverse_j, out);
     store(tau.yy * inverse_j, out + lane_count);
@@ -129,6 +127,12 @@ class Hypoelastic final : public Law<2> {
     const Lanes eyy = m(1, 0) * t.xx + m(1, 1) * t.yy + m(1, 2) * t.xy;
     const Lanes gxy = m(2, 0) * t.xx + m(2, 1) * t.yy + m(2, 2) * t.xy;
     return 0.5 * at(s, volume) * (t.xx * exx + t.yy * eyy + t.xy * gxy);
+  }
+
+  Lanes volume_ratio(const double* s) const override
+  {
+    const Lanes in_plane = at(s, f_xx) * at(s, f_yy) - at(s, f_xy) * at(s, f_yx);
+    return plane_strain ? in_plane : in_plane * lane_exp(at(s, third));
   }
 
   double wave_speed() const override { return std::sqrt(stiffness_.wave_modulus() / density_); }

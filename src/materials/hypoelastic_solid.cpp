@@ -30,7 +30,7 @@ Tensor rotation_of(const Tensor& g)
 
 template <bool Plastic>
 class HypoelasticSolid final : public Law<3> {
-  enum : int { volume = 0, volume_ratio, tau, plastic_strain = tau + 6, plastic_work };
+  enum : int { volume = 0, volume_ratio_column, tau, plastic_strain = tau + 6, plastic_work };
   static constexpr int columns = Plastic ? plastic_work + 1 : plastic_strain;
   static constexpr FlowColumns flow_columns{volume, plastic_strain, plastic_work};
 
@@ -56,7 +56,7 @@ class HypoelasticSolid final : public Law<3> {
 
   void initialise(ColumnGroup& state, LocalIndex particle) const override
   {
-    state(volume_ratio, particle) = 1;
+    state(volume_ratio_column, particle) = 1;
   }
 
   void update(double* state, int blocks, const double* gradient, double dt,
@@ -77,7 +77,7 @@ class HypoelasticSolid final : public Law<3> {
 
   void cauchy_stress(const double* s, double* out) const override
   {
-    store_scaled(stress(s), 1.0 / at(s, volume_ratio), out);
+    store_scaled(stress(s), 1.0 / at(s, volume_ratio_column), out);
   }
 
   Lanes elastic_energy(const double* s) const override
@@ -87,6 +87,8 @@ class HypoelasticSolid final : public Law<3> {
     return at(s, volume) * (p * p / (2 * elastic_.bulk_modulus()) +
                             t.deviator().squared() / (4 * elastic_.shear_modulus()));
   }
+
+  Lanes volume_ratio(const double* s) const override { return at(s, volume_ratio_column); }
 
   double wave_speed() const override { return std::sqrt(elastic_.wave_modulus() / density_); }
 
@@ -110,7 +112,7 @@ class HypoelasticSolid final : public Law<3> {
         whole.a[i][j] += a.a[i][j];
       }
     const Tensor g = a * middle.inverse();
-    store(at(s, volume_ratio) * whole.determinant(), s + volume_ratio * lane_count);
+    store(volume_ratio(s) * whole.determinant(), s + volume_ratio_column * lane_count);
 
     // The increment belongs to the axes of the midpoint: half of it turns with the old stress, half
     // does not, which is right to second order and costs no second rotation.

@@ -75,6 +75,11 @@ class NeoHookeanPlane final : public Law<2> {
            (0.5 * mu_ * (trace - 3.0) - mu_ * z.log_j + 0.5 * lambda_ * z.log_j * z.log_j);
   }
 
+  Lanes volume_ratio(const double* s) const override
+  {
+    return lane_exp(Thickness(*this, s).log_j);
+  }
+
   double wave_speed() const override
   {
     return std::sqrt(elastic_.in_plane_modulus(Plane) / density_);
@@ -178,6 +183,11 @@ class NeoHookeanSolid final : public Law<3> {
   {
     const Lanes log = log_j(s);
     return load(s) * (0.5 * mu_ * (b_of(s).trace() - 3.0) - mu_ * log + 0.5 * lambda_ * log * log);
+  }
+
+  Lanes volume_ratio(const double* s) const override
+  {
+    return stdx::sqrt(b_of(s).determinant());
   }
 
   double wave_speed() const override { return std::sqrt((lambda_ + 2 * mu_) / density_); }

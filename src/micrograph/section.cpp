@@ -133,9 +133,17 @@ Section::Section(const scene::Scene& scene, GrayImage image, const IndexVec<2>& 
 
   const double filled = count_in(means, bands_, share);
   if (filled == 0) fail_without_wall(micrograph, figures_.threshold, means, count, share);
-  if (micrograph.remove_specks <= 1 && !micrograph.remove_unconnected) return;
-
   rows.material = materials_of(means, bands_);
+  if (micrograph.remove_specks > 1 || micrograph.remove_unconnected)
+    remove_pieces(micrograph, rows, filled, share);
+  if (micrograph.remove_unconnected) return;
+  for (const Run& run : removed_runs(rows, {.only_largest = true}, share))
+    figures_.unconnected += run.end - run.begin;
+}
+
+void Section::remove_pieces(const scene::Micrograph& micrograph, Lattice<2>& rows, double filled,
+                            const Share& share)
+{
   removed_ = removed_runs(rows, {micrograph.remove_specks, micrograph.remove_unconnected}, share);
   for (const Run& run : removed_) figures_.removed += run.end - run.begin;
   if (double(figures_.removed) == filled)
@@ -143,11 +151,18 @@ Section::Section(const scene::Scene& scene, GrayImage image, const IndexVec<2>& 
         fmt::format("no cell wall left: every piece has fewer than specimen.remove_specks = {} "
                     "locations. Lower it.",
                     micrograph.remove_specks));
+  leave_out_removed(rows.part, rows.material);
 }
 
 std::vector<std::int8_t> Section::materials(const IndexBox<2>& part) const
 {
   std::vector<std::int8_t> materials = materials_of(location_means(image_, count_, part), bands_);
+  leave_out_removed(part, materials);
+  return materials;
+}
+
+void Section::leave_out_removed(const IndexBox<2>& part, std::vector<std::int8_t>& materials) const
+{
   const LocalIndex width = part.count()[0];
   for (auto run = std::ranges::lower_bound(removed_, part.lower[1], {}, &Run::row);
        run != removed_.end() && run->row < part.upper[1]; ++run) {
@@ -157,7 +172,6 @@ std::vector<std::int8_t> Section::materials(const IndexBox<2>& part) const
     const auto row = materials.begin() + std::ptrdiff_t(run->row - part.lower[1]) * width;
     std::fill(row + begin, row + end, Lattice<2>::empty);
   }
-  return materials;
 }
 
 }  // namespace mpm::micrograph

@@ -92,7 +92,10 @@ void Specimen<Dim>::settle_picture(const scene::Scene& scene, Picture picture, c
 
   Section section(scene, std::move(picture.image), count_.template head<2>(), share);
   picture_ = section.figures();
-  if constexpr (Dim == 3) picture_->removed *= count_[2];
+  if constexpr (Dim == 3) {
+    picture_->removed *= count_[2];
+    picture_->unconnected *= count_[2];
+  }
   source_ = std::make_unique<PictureSource<Dim>>(std::move(section));
   std::vector<std::int8_t> materials(scene.materials.size());
   std::iota(materials.begin(), materials.end(), std::int8_t(0));

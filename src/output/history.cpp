@@ -88,11 +88,24 @@ void HistoryFile::write_line(const std::string& line)
   if (!stream_) {
     const std::string reason = std::strerror(errno);
     std::error_code ignored;  // a device such as a pipe cannot be cut
-    std::filesystem::resize_file(file_, whole_bytes_, ignored);  // no half line stays behind
+    // No half line stays behind.
+    std::filesystem::resize_file(file_, ends_.empty() ? 0 : ends_.back(), ignored);
     throw FileError(fmt::format("{}: cannot write a line ({}). Free space on that disk.",
                                 file_.string(), reason));
   }
-  whole_bytes_ += line.size();
+  ends_.push_back((ends_.empty() ? 0 : ends_.back()) + line.size());
+}
+
+void HistoryFile::cut(std::size_t lines)
+{
+  MPM_ASSERT(lines < ends_.size());
+  ends_.resize(lines + 1);
+  std::error_code failure;
+  std::filesystem::resize_file(file_, ends_.back(), failure);
+  if (failure)
+    throw FileError(fmt::format("{}: cannot take lines away ({}). Check the disk.", file_.string(),
+                                failure.message()));
+  stream_.seekp(std::streamoff(ends_.back()));
 }
 
 bool HistoryTable::has(const std::string& name) const

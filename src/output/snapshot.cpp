@@ -24,6 +24,11 @@ void write_connectivity(Hdf5File& file, std::int64_t first, std::size_t count)
   file.write_rows("/particles/connectivity", "1", 1, std::span<const Index>(numbers));
 }
 
+std::string file_of(int number)
+{
+  return fmt::format("snapshots/{:06}.h5", number);
+}
+
 /// At most: integers may be shorter, compressed arrays are.
 std::int64_t expected_bytes(const Snapshot& snapshot, std::int64_t particles)
 {
@@ -51,7 +56,7 @@ void SnapshotSeries::write(const Snapshot& snapshot)
   MPM_ASSERT(snapshot.position.size() % 3 == 0);
   const std::size_t mine = snapshot.position.size() / 3;
   XdmfGrid entry;
-  entry.file = fmt::format("snapshots/{:06}.h5", written_);
+  entry.file = file_of(written_);
   entry.time = snapshot.time;
   entry.strain = snapshot.strain;
   std::int64_t before = 0;
@@ -91,6 +96,23 @@ void SnapshotSeries::write(const Snapshot& snapshot)
   if (entry.particles == 0) return;  // ParaView divides by the number of rows and ends
   entries_.push_back(std::move(entry));
   on_rank_zero(comm_, [this] { write_xdmf(directory_ / (name_ + ".xdmf"), name_, entries_); });
+}
+
+void SnapshotSeries::cut(int written)
+{
+  const std::string first_gone = file_of(written);
+  std::erase_if(entries_, [&](const XdmfGrid& entry) { return entry.file >= first_gone; });
+  on_rank_zero(comm_, [&] {
+    const std::filesystem::path series = directory_ / (name_ + ".xdmf");
+    std::error_code ignored;
+    if (entries_.empty())
+      std::filesystem::remove(series, ignored);
+    else
+      write_xdmf(series, name_, entries_);  // before the files: it never names one that is gone
+    for (int k = written; k < written_; ++k)
+      std::filesystem::remove(directory_ / file_of(k), ignored);
+  });
+  written_ = written;
 }
 
 }  // namespace mpm::output

@@ -70,6 +70,8 @@ std::string Summary::text() const
       json[key] = list_of(*list);
     else if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&value))
       json[key] = *integers;
+    else if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
+      json[key] = *texts;
     else
       json[key] = nullptr;
   }

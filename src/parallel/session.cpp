@@ -95,12 +95,13 @@ void agree(MPI_Comm comm, const std::function<void()>& action)
   enum Kind : int { input, numerical, file, other, none };
   int kind = none;
   std::string text;
+  GlobalIndex particle = NumericalError::none;
   try {
     action();
   } catch (const InputError& error) {
     kind = input, text = error.what();
   } catch (const NumericalError& error) {
-    kind = numerical, text = error.what();
+    kind = numerical, text = error.what(), particle = error.particle();
   } catch (const FileError& error) {
     kind = file, text = error.what();
   } catch (const std::exception& error) {
@@ -110,15 +111,15 @@ void agree(MPI_Comm comm, const std::function<void()>& action)
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MIN, comm);
   if (failed == ranks_of(comm)) return;
 
-  int message[2] = {kind, int(text.size())};
-  MPI_Bcast(message, 2, MPI_INT, failed, comm);
+  GlobalIndex message[3] = {kind, GlobalIndex(text.size()), particle};
+  MPI_Bcast(message, 3, MPI_INT64_T, failed, comm);
   text.resize(message[1]);
-  MPI_Bcast(text.data(), message[1], MPI_CHAR, failed, comm);
+  MPI_Bcast(text.data(), int(message[1]), MPI_CHAR, failed, comm);
   switch (message[0]) {
     case input:
       throw InputError(text);
     case numerical:
-      throw NumericalError(text);
+      throw NumericalError(text, message[2]);
     case file:
       throw FileError(text);
     default:

@@ -51,6 +51,9 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 "process grid of cuts along each axis; 0: chosen"),
       member<N>("repartition_interval", &N::repartition_interval, {.bound = at_least(0)},
                 "move the borders between ranks every so many steps (for tests); 0: when it pays"),
+      member<N>("recovery", &N::recovery, {},
+                "after a numerical failure: end the run, or go back to the last sound state and on "
+                "with half the step, four times at most"),
   };
   return rows;
 }

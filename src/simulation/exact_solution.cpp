@@ -122,14 +122,22 @@ void ExactSolution<Dim>::line(const typename Observer<Dim>::State& state, const 
   std::vector<double> row{line.time};
   for (std::size_t k = 0; k < comparisons_.size(); ++k) {
     Comparison& c = comparisons_[k];
-    c.error = std::sqrt(sums[2 * k] / sums.back());
-    c.largest_error = std::sqrt(largest[k]);
-    const double size = std::sqrt(sums[2 * k + 1] / sums.back());
-    c.worst_error = std::max(c.worst_error, c.error);
-    c.size = std::max(c.size, size);
-    row.insert(row.end(), {c.error, c.largest_error, size});
+    c.error.push_back(std::sqrt(sums[2 * k] / sums.back()));
+    c.largest_error.push_back(std::sqrt(largest[k]));
+    c.size.push_back(std::sqrt(sums[2 * k + 1] / sums.back()));
+    row.insert(row.end(), {c.error.back(), c.largest_error.back(), c.size.back()});
   }
   on_rank_zero(preparation_.comm, [&] { file_->append(row); });
+}
+
+template <int Dim>
+void ExactSolution<Dim>::went_back(const GoingBack& back)
+{
+  if (comparisons_.empty()) return;
+  for (Comparison& c : comparisons_)
+    for (std::vector<double>* lines : {&c.error, &c.largest_error, &c.size})
+      lines->resize(back.lines);
+  on_rank_zero(preparation_.comm, [&] { file_->cut(back.lines); });
 }
 
 template <int Dim>
@@ -138,10 +146,10 @@ void ExactSolution<Dim>::describe(output::Summary& summary) const
   if (comparisons_.empty()) return;
   output::Summary& section = summary.section("exact_solution");
   for (const Comparison& c : comparisons_) {
-    section.set(c.what + "_error", c.error);
-    section.set(c.what + "_largest_error", c.largest_error);
-    section.set(c.what + "_relative_error", c.error / c.size);
-    section.set(c.what + "_worst_relative_error", c.worst_error / c.size);
+    section.set(c.what + "_error", c.error.back());
+    section.set(c.what + "_largest_error", c.largest_error.back());
+    section.set(c.what + "_relative_error", c.error.back() / c.whole_size());
+    section.set(c.what + "_worst_relative_error", std::ranges::max(c.error) / c.whole_size());
   }
 }
 
@@ -150,7 +158,8 @@ void ExactSolution<Dim>::print() const
 {
   for (const Comparison& c : comparisons_)
     fmt::print("{:<24} {:8.3g} % of the exact solution, at worst {:.3g} %\n", c.what + " error",
-               100 * c.error / c.size, 100 * c.worst_error / c.size);
+               100 * c.error.back() / c.whole_size(),
+               100 * std::ranges::max(c.error) / c.whole_size());
 }
 
 template class ExactSolution<2>;

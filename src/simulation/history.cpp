@@ -16,6 +16,17 @@ namespace {
 
 /// Steps between two readings of the load cell's mean stress.
 constexpr GlobalIndex steps_between_readings = 5;
+/// And between two looks at the energy balance.
+constexpr GlobalIndex steps_between_looks = 200;
+
+template <int Dim>
+double fastest_wave(const Formulation<Dim>& formulation)
+{
+  double speed = 0;
+  for (const Body<Dim>& body : formulation.bodies())
+    speed = std::max(speed, body.law->wave_speed());
+  return speed;
+}
 
 /// Everything that a line holds.
 template <class T>
@@ -98,10 +109,13 @@ std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind
 }
 
 template <int Dim>
-History<Dim>::History(Formulation<Dim>& formulation, std::optional<Apparatus<Dim>> apparatus)
-    : formulation_(formulation), apparatus_(std::move(apparatus))
+History<Dim>::History(Formulation<Dim>& formulation, std::optional<Apparatus<Dim>> apparatus,
+                      double largest_speed)
+    : formulation_(formulation),
+      apparatus_(std::move(apparatus)),
+      start_(sum_particles(comm(), formulation_.bodies())),
+      energy_(start_.mass, fastest_wave(formulation_), largest_speed)
 {
-  start_ = sum_particles(comm(), formulation_.bodies());
 }
 
 template <int Dim>
@@ -119,6 +133,11 @@ void History<Dim>::before_line()
 template <int Dim>
 void History<Dim>::observe()
 {
+  if (formulation_.steps() % steps_between_looks == 0) {
+    take_reactions();
+    energy_.check(formulation_, surplus(sum_particles(comm(), formulation_.bodies())),
+                  work_size_ + start_.kinetic_energy);
+  }
   if (!kind().load_cell || formulation_.steps() % steps_between_readings != 0) return;
   const AxialStress now = axial_stress(
       formulation_.bodies()[std::size_t(apparatus_->load_cell_body)], apparatus_->axis);
@@ -126,12 +145,11 @@ void History<Dim>::observe()
   load_cell_.mass += now.mass;
 }
 
-/// Load cell, then work and impulse of loads, contacts and each condition.
+/// Work and impulse of loads, contacts and each condition.
 template <int Dim>
-void History<Dim>::take_reactions(HistoryLine& line)
+void History<Dim>::take_reactions()
 {
-  std::vector<double> sums{load_cell_.mass_stress, load_cell_.mass};
-  load_cell_ = {};
+  std::vector<double> sums;
   const auto append = [&](const Reaction<Dim>& reaction) {
     sums.push_back(reaction.work);
     sums.insert(sums.end(), reaction.impulse.data(), reaction.impulse.data() + Dim);
@@ -142,29 +160,47 @@ void History<Dim>::take_reactions(HistoryLine& line)
   const std::size_t others = 1 + slots.contacts.size();
   for (const auto& condition : slots.conditions) append(condition->take_reaction());
   sum_over_ranks(comm(), sums);
-  if (sums[1] > 0) line.load_cell_stress = -sums[0] / sums[1];
-
-  double piston_impulse = 0, edge_impulse = 0;  // along the axis
   for (std::size_t k = 0; k < others + slots.conditions.size(); ++k) {
-    const double* reaction = &sums[2 + k * (1 + Dim)];
+    const double* reaction = &sums[k * (1 + Dim)];
     const Vec<Dim> impulse = Eigen::Map<const Vec<Dim>>(reaction + 1);
     external_work_ += reaction[0];
+    work_size_ += std::abs(reaction[0]);
     impulse_ += impulse;
     impulse_size_ += impulse.norm();
     if (!apparatus_ || k < others) continue;
     const auto* condition = slots.conditions[k - others].get();
-    if (condition == apparatus_->piston) piston_impulse = impulse[apparatus_->axis];
-    if (condition == apparatus_->edge) edge_impulse = impulse[apparatus_->axis];
+    if (condition == apparatus_->piston) piston_impulse_ += impulse[apparatus_->axis];
+    if (condition == apparatus_->edge) edge_impulse_ += impulse[apparatus_->axis];
   }
+}
+
+/// The means since the last line.
+template <int Dim>
+void History<Dim>::begin_line(HistoryLine& line)
+{
+  take_reactions();
   line.external_work = external_work_;
+  std::array<double, 2> cell{load_cell_.mass_stress, load_cell_.mass};
+  load_cell_ = {};
+  sum_over_ranks(comm(), cell);
+  if (cell[1] > 0) line.load_cell_stress = -cell[0] / cell[1];
   if (!apparatus_) return;
   // A wall at the upper end pushes towards lower coordinates.
   const double towards = apparatus_->piston->placement().upper ? -1 : 1;
   const double duration = line.time - last_time_;
   const double per_area = duration > 0 ? 1 / (apparatus_->area * duration) : 0;
   // + 0.0: no minus before a zero.
-  line.piston_stress = towards * piston_impulse * per_area + 0.0;
-  line.edge_stress = -towards * edge_impulse * per_area + 0.0;
+  line.piston_stress = towards * piston_impulse_ * per_area + 0.0;
+  line.edge_stress = -towards * edge_impulse_ * per_area + 0.0;
+  piston_impulse_ = edge_impulse_ = 0;
+}
+
+/// What is too much in the energy balance, J.
+template <int Dim>
+double History<Dim>::surplus(const ParticleSums<Dim>& sums) const
+{
+  return sums.kinetic_energy + sums.stress_work() - external_work_ - start_.kinetic_energy -
+         start_.stress_work();
 }
 
 template <int Dim>
@@ -176,11 +212,10 @@ void History<Dim>::balance(HistoryLine& line, const ParticleSums<Dim>& sums)
   const double stress_work = sums.stress_work();
   const double last_step = stress_work - stress_work_before_.value_or(stress_work);
   stress_work_before_.reset();
-  const double surplus = sums.kinetic_energy + stress_work -
-                         formulation_.stress_moment() * last_step - line.external_work -
-                         start_.kinetic_energy - start_.stress_work();
+  const double surplus = this->surplus(sums) - formulation_.stress_moment() * last_step;
   const double scale = std::max(std::abs(line.external_work), start_.kinetic_energy);
   line.energy_error = scale > 0 ? surplus / scale : 0;
+  energy_.check(formulation_, surplus, work_size_ + start_.kinetic_energy);
   const double pushes = impulse_size_ + start_.momentum.norm();
   if (pushes > 0)
     line.momentum_error = (sums.momentum - start_.momentum - impulse_).norm() / pushes;
@@ -197,14 +232,14 @@ const HistoryLine& History<Dim>::record(double dt)
   line.kinetic_energy = sums.kinetic_energy;
   line.elastic_energy = sums.elastic_energy;
   line.plastic_work = sums.plastic_work;
-  take_reactions(line);
+  begin_line(line);
   if (apparatus_) {
     line.strain = apparatus_->strain(line.time);
     count_outside(line);
   }
   last_time_ = line.time;
-  balance(line, sums);
   check(sums, line);
+  balance(line, sums);
   return lines_.emplace_back(line);
 }
 
@@ -256,6 +291,9 @@ void History<Dim>::archive(Archive& archive)
   archive.value("external_work", external_work_);
   archive.values("impulse", {impulse_.data(), std::size_t(Dim)});
   archive.value("impulse_size", impulse_size_);
+  archive.value("work_size", work_size_);
+  archive.value("piston_impulse", piston_impulse_);
+  archive.value("edge_impulse", edge_impulse_);
   archive.value("last_time", last_time_);
   archive.value("load_cell_mass_stress", load_cell_.mass_stress);
   archive.value("load_cell_mass", load_cell_.mass);

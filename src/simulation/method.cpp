@@ -2,15 +2,35 @@
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/method.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace mpm {
+
+std::optional<double> stable_cfl_of(const scene::Numerics& numerics)
+{
+  return stable_cfl(*numerics.shape_function, *numerics.scheme, *numerics.update_order);
+}
 
 double default_cfl(const scene::Numerics& numerics)
 {
   if (numerics.cfl) return *numerics.cfl;
-  const auto stable =
-      stable_cfl(*numerics.shape_function, *numerics.scheme, *numerics.update_order);
+  const auto stable = stable_cfl_of(numerics);
   if (!stable) throw InputError("no time step is stable with this shape function");
   return numerics.shape_function->cfl_share * *stable;
+}
+
+template <int Dim>
+TimeStep time_step_of(const Layout<Dim>& layout)
+{
+  return {layout.cfl, layout.geometry.smallest_spacing(), layout.wave_speed, layout.largest_speed};
+}
+
+template <int Dim>
+double expected_steps(const scene::Scene& scene, const Layout<Dim>& layout)
+{
+  const double steps = std::ceil(layout.end_time / time_step_of(layout).first());
+  return scene.steps ? std::min(steps, double(*scene.steps)) : steps;
 }
 
 template <int Dim>
@@ -60,6 +80,10 @@ Partition<Dim> first_partition(MPI_Comm comm, const scene::Scene& scene,
                                loads_under, nullptr);
 }
 
+template TimeStep time_step_of(const Layout<2>&);
+template TimeStep time_step_of(const Layout<3>&);
+template double expected_steps(const scene::Scene&, const Layout<2>&);
+template double expected_steps(const scene::Scene&, const Layout<3>&);
 template std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics&, int);
 template std::unique_ptr<Transfer<3>> make_transfer(const scene::Numerics&, int);
 template PartitionRules<2> partition_rules(const scene::Scene&);

@@ -93,7 +93,7 @@ void fill_body(Body<Dim>& body, const scene::Scene& scene, const Lattice<Dim>& l
 {
   BodyFiller<Dim> filler(body, layout, decomposition);
   // Velocities stand before or after the stresses of t = 0 (leap-frog).
-  const double moment = -scene.numerics.update_order->stress_moment * layout.time_step().first();
+  const double moment = -scene.numerics.update_order->stress_moment * time_step_of(layout).first();
   const auto velocity_of = [&](const IndexVec<Dim>& at, int shape) {
     scene::PerAxis<double> velocity{};
     if (const auto& formulas = scene.specimen.initial_velocity)

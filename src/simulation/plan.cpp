@@ -1,8 +1,8 @@
 #include <mpm/parallel/session.hpp>
+#include <mpm/simulation/kept_state.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
 #include <mpm/simulation/preparation.hpp>
-#include <mpm/stepping/time_step.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -100,9 +100,7 @@ std::string plan_text(const Preparation<Dim>& preparation)
   for (std::size_t k = 0; k < scene.materials.size(); ++k)
     if (scene.materials[k].law->deformable())
       particles += double(specimen.particles_of_material()[k]);
-  const double dt = layout.time_step().first();
-  double steps = std::ceil(layout.end_time / dt);
-  if (scene.steps) steps = std::min(steps, double(*scene.steps));
+  const double dt = time_step_of(layout).first(), steps = expected_steps(scene, layout);
   const auto transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
   const UpdateOrderRow& order = *scene.numerics.update_order;
   const double per_particle = bytes_per_particle(scene, *transfer);
@@ -152,10 +150,17 @@ std::string plan_text(const Preparation<Dim>& preparation)
   line("ranks", ranks_text(preparation.partition));
   line("memory", fmt::format("{:.0f} B per particle, {:.0f} B per node, {} in all", per_particle,
                              per_node, memory(per_particle * particles + per_node * nodes)));
+  line("last sound state", fmt::format("{} more at most, kept every {} steps for {}",
+                                       memory(per_particle * particles + per_node * nodes),
+                                       KeptState<Dim>::steps_between,
+                                       scene.numerics.recovery == scene::Recovery::retry
+                                           ? "another attempt and a snapshot of failure"
+                                           : "a snapshot of failure"));
   line("run time",
        fmt::format("about {} on {} rank{} (order of magnitude)",
                    duration(1e-9 * step_cost<Dim>(scene.numerics) * particles * steps / ranks),
                    ranks, ranks == 1 ? "" : "s"));
+  for (const std::string& warning : preparation.warnings) line("warning", warning);
   return text;
 }
 

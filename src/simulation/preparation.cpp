@@ -1,6 +1,7 @@
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/preparation.hpp>
+#include <mpm/simulation/warnings.hpp>
 
 namespace mpm {
 
@@ -31,7 +32,8 @@ Preparation<Dim>::Preparation(MPI_Comm communicator, const scene::Scene& of,
       specimen(of, std::move(picture), share_of(communicator)),
       layout(agreed_layout(communicator, of, specimen)),
       partition(first_partition(communicator, of, specimen, layout)),
-      comm(communicator)
+      comm(communicator),
+      warnings(warnings_of(of, specimen, layout, share_of(communicator)))
 {
 }
 

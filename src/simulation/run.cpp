@@ -1,4 +1,7 @@
+#include <mpm/core/error.hpp>
 #include <mpm/parallel/session.hpp>
+#include <mpm/simulation/failure_cause.hpp>
+#include <mpm/simulation/kept_state.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/run.hpp>
 #include <mpm/stepping/load_balance.hpp>
@@ -36,26 +39,55 @@ class Run {
   RunResult run()
   {
     const auto loop_start = Clock::now();
-    const double line_interval = layout_.end_time / scene_.output.history_lines;
-    std::size_t next_line = 1;
-    const auto tell = [&](const auto& what) {
-      const auto start = Clock::now();
-      const State state = this->state();
-      for (Observer<Dim>* observer : observers_) what(*observer, state);
-      result_.observer_seconds += seconds_since(start);
-    };
-    const auto record = [&](double dt) {
-      const HistoryLine& line = history_.record(dt);
-      tell([&](Observer<Dim>& observer, const State& state) { observer.line(state, line); });
-    };
-    const auto look = [](Observer<Dim>& observer, const State& state) { observer.look(state); };
     tell([&](Observer<Dim>& observer, const State&) { observer.start(history_.kind()); });
-    tell(look);
+    look();
     record(time_step_.first());
-    double dt = 0;
+    keep();
+    while (!finished_at(stepper_.time(), stepper_.steps())) try {
+        advance();
+      } catch (const NumericalError& error) {
+        go_back(error);
+      }
+    result_.step_seconds = seconds_since(loop_start) - result_.observer_seconds;
+    for (Observer<Dim>* observer : observers_) observer->finish();
+    fill_result();
+    return std::move(result_);
+  }
+
+ private:
+  Run(const Preparation<Dim>& preparation, std::span<Observer<Dim>* const> observers,
+      const Decomposition<Dim>& decomposition)
+      : start_(Clock::now()),
+        preparation_(preparation),
+        comm_(preparation.comm),
+        scene_(preparation.scene),
+        layout_(preparation.layout),
+        observers_(observers),
+        model_(make_model(scene_, preparation.specimen, layout_, decomposition)),
+        time_step_(time_step_of(layout_)),
+        stepper_(decomposition, std::move(model_.setup)),
+        balance_(partition_rules<Dim>(scene_), scene_.numerics.repartition_interval),
+        history_(stepper_, model_.apparatus, layout_.largest_speed),
+        keeps_(retries() || std::ranges::any_of(observers_, [](const Observer<Dim>* observer) {
+                 return observer->wants_last_sound_state();
+               }))
+  {
+    result_.particles = stepper_.particles();
+    sum_over_ranks(comm_, std::span(&result_.particles, 1));
+  }
+
+  /// To the end, or until a NumericalError, which every rank meets at the same place.
+  void advance()
+  {
+    const double line_interval = layout_.end_time / scene_.output.history_lines;
+    const auto line_after = [&](double time) {
+      return std::size_t(time / line_interval * (1 + 1e-12)) + 1;
+    };
+    std::size_t next_line = line_after(stepper_.time());
+    double dt = step_share_ * time_step_.next(stepper_);
     while (!finished_at(stepper_.time(), stepper_.steps())) {
       if (stepper_.steps() % Formulation<Dim>::steps_between_checks == 0)
-        dt = time_step_.next(stepper_);
+        dt = step_share_ * time_step_.next(stepper_);
       const double last = std::min(dt, layout_.end_time - stepper_.time());
       const double after = stepper_.time() + last;
       const bool line_due = after >= double(next_line) * line_interval * (1 - 1e-12) ||
@@ -67,32 +99,65 @@ class Run {
       if (line_due) {
         stepper_.check();
         record(last);
-        next_line = std::size_t(stepper_.time() / line_interval * (1 + 1e-12)) + 1;
+        next_line = line_after(stepper_.time());
       }
-      tell(look);
+      look();
+      if (stepper_.steps() % KeptState<Dim>::steps_between == 0 && history_.is_sound()) keep();
     }
-    result_.step_seconds = seconds_since(loop_start) - result_.observer_seconds;
-    for (Observer<Dim>* observer : observers_) observer->finish();
-    fill_result();
-    return std::move(result_);
   }
 
- private:
-  Run(const Preparation<Dim>& preparation, std::span<Observer<Dim>* const> observers,
-      const Decomposition<Dim>& decomposition)
-      : start_(Clock::now()),
-        comm_(preparation.comm),
-        scene_(preparation.scene),
-        layout_(preparation.layout),
-        observers_(observers),
-        model_(make_model(scene_, preparation.specimen, layout_, decomposition)),
-        time_step_(layout_.time_step()),
-        stepper_(decomposition, std::move(model_.setup)),
-        balance_(partition_rules<Dim>(scene_), scene_.numerics.repartition_interval),
-        history_(stepper_, model_.apparatus)
+  template <class What>
+  void tell(const What& what)
   {
-    result_.particles = stepper_.particles();
-    sum_over_ranks(comm_, std::span(&result_.particles, 1));
+    const auto start = Clock::now();
+    const State state = this->state();
+    for (Observer<Dim>* observer : observers_) what(*observer, state);
+    result_.observer_seconds += seconds_since(start);
+  }
+  void look()
+  {
+    tell([](Observer<Dim>& observer, const State& state) { observer.look(state); });
+  }
+  void record(double dt)
+  {
+    const HistoryLine& line = history_.record(dt);
+    tell([&](Observer<Dim>& observer, const State& state) { observer.line(state, line); });
+  }
+
+  bool retries() const { return scene_.numerics.recovery == scene::Recovery::retry; }
+
+  void keep()
+  {
+    if (!keeps_) return;
+    kept_.save(stepper_, balance_, history_);
+    tell([](Observer<Dim>& observer, const State&) { observer.kept(); });
+  }
+
+  /// To the last sound state: for another attempt with a shorter step, or to show it and stop.
+  void go_back(const NumericalError& error)
+  {
+    if (!keeps_) stop(error);
+    const GlobalIndex failed_step = stepper_.steps();
+    const double failed_time = stepper_.time();
+    kept_.load(stepper_, balance_, history_);
+    if (!retries() || int(result_.goings_back.size()) >= most_attempts) stop(error);
+    step_share_ *= share_of_step;
+    result_.repeated_steps += failed_step - stepper_.steps();
+    result_.goings_back.push_back({failed_step, failed_time, error.what(), stepper_.steps(),
+                                   stepper_.time(), history_.lines().size(), step_share_});
+    tell([&](Observer<Dim>& observer, const State&) {
+      observer.went_back(result_.goings_back.back());
+    });
+  }
+
+  [[noreturn]] void stop(const NumericalError& error)
+  {
+    std::string text = error.what() + likely_cause(preparation_, error.particle());
+    if (const std::size_t attempts = result_.goings_back.size(); attempts > 0)
+      text +=
+          fmt::format(" This was attempt {}, with {:.4g} of the step.", attempts + 1, step_share_);
+    tell([&](Observer<Dim>& observer, const State& state) { text += observer.failed(state); });
+    throw NumericalError(text, error.particle());
   }
 
   State state()
@@ -166,7 +231,12 @@ class Run {
     return analysis::compression_properties(strain, stress, options);
   }
 
+  /// Goings back in a run, and what is left of the step after each.
+  static constexpr int most_attempts = 4;
+  static constexpr double share_of_step = 0.5;
+
   Clock::time_point start_;
+  const Preparation<Dim>& preparation_;
   MPI_Comm comm_;
   const scene::Scene& scene_;
   const Layout<Dim>& layout_;
@@ -176,10 +246,19 @@ class Run {
   UpdatedLagrangian<Dim> stepper_;
   LoadBalance<Dim> balance_;
   History<Dim> history_;
+  bool keeps_;
+  KeptState<Dim> kept_;
+  double step_share_ = 1;
   RunResult result_;
 };
 
 }  // namespace
+
+std::string GoingBack::text() const
+{
+  return fmt::format("{} Went back to step {}, t = {:.6g} s, and on with {:.4g} of the step.",
+                     reason, step, time, step_share);
+}
 
 template <int Dim>
 RunResult run(const Preparation<Dim>& preparation, std::span<Observer<Dim>* const> observers)

@@ -1,19 +1,19 @@
 /// A run that leaves its results in a folder and words on the terminal.
 
-#include <mpm/analysis/compression_summary.hpp>
 #include <mpm/core/error.hpp>
 #include <mpm/micrograph/preview.hpp>
-#include <mpm/output/summary.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/scene/reader.hpp>
 #include <mpm/simulation/exact_solution.hpp>
+#include <mpm/simulation/failure_snapshot.hpp>
 #include <mpm/simulation/progress.hpp>
-#include <mpm/simulation/provenance.hpp>
+#include <mpm/simulation/run_summary.hpp>
 #include <mpm/simulation/snapshots.hpp>
 
 #include <fstream>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace mpm {
 
@@ -34,6 +34,10 @@ class HistoryWriter final : public Observer<Dim> {
   void line(const typename Observer<Dim>::State&, const HistoryLine& line) override
   {
     on_rank_zero(comm_, [&] { file_->append(history_row(line, kind_)); });
+  }
+  void went_back(const GoingBack& back) override
+  {
+    on_rank_zero(comm_, [&] { file_->cut(back.lines); });
   }
 
  private:
@@ -56,6 +60,12 @@ class ProgressWriter final : public Observer<Dim> {
       progress_.show({state.fraction, steps, line.time, line.strain, line.stress(), loaded_,
                       steps * long(line.particles)});
   }
+  void went_back(const GoingBack& back) override
+  {
+    if (!writes_) return;
+    progress_.finish();
+    spdlog::warn(back.text());
+  }
   void finish() override
   {
     if (writes_) progress_.finish();
@@ -65,84 +75,6 @@ class ProgressWriter final : public Observer<Dim> {
   bool writes_, loaded_ = false;
   Progress progress_;
 };
-
-template <int Dim>
-void describe(const Preparation<Dim>& preparation, output::Summary& summary)
-{
-  const auto& specimen = preparation.specimen;
-  summary.set("name", preparation.scene.name);
-  summary.set("title", preparation.scene.title);
-  summary.set("dimensions", Dim);
-  summary.set("relative_density", specimen.densities().front().value);
-  if (specimen.picture()) {
-    summary.set("picture_relative_density", specimen.picture()->density);
-    summary.set("removed_locations", specimen.picture()->removed);
-  }
-  summary.set("bulk_density", specimen.densities().front().bulk_density);
-  for (std::size_t k = 1; k < specimen.densities().size(); ++k)
-    summary.section("windows").set(specimen.densities()[k].window, specimen.densities()[k].value);
-  std::vector<std::int64_t> cells;
-  for (int d = 0; d < Dim; ++d) cells.push_back(specimen.cells()[d]);
-  summary.set("cells", std::move(cells));
-}
-
-void describe(const Cooperation& cooperation, output::Summary& summary)
-{
-  summary.set("decomposition", cooperation.decomposition);
-  summary.set("migrated", cooperation.migrated);
-  summary.set("repartitions", cooperation.repartitions);
-  summary.set("messages_per_step", cooperation.messages_per_step);
-  summary.set("bytes_per_step", cooperation.bytes_per_step);
-  summary.set("imbalance", cooperation.imbalance);
-  summary.set("mean_imbalance", cooperation.mean_imbalance);
-  summary.set("mean_work_imbalance", cooperation.mean_work_imbalance);
-  summary.set("waiting_seconds", cooperation.waiting_seconds);
-}
-
-void describe_curve(const analysis::CompressionProperties& found, output::Summary& summary)
-{
-  const auto set = [&](const std::string& what, const std::optional<analysis::CurvePoint>& p) {
-    summary.set(what + "_stress", p ? std::optional(p->stress) : std::nullopt);
-    summary.set(what + "_strain", p ? std::optional(p->strain) : std::nullopt);
-  };
-  summary.set("modulus", found.modulus);
-  set("buckling", found.buckling);
-  set("densification", found.densification);
-  analysis::describe(found, summary.section("compression"));
-}
-
-template <int Dim>
-void write_summary(const Preparation<Dim>& preparation, const RunResult& result,
-                   const ExactSolution<Dim>& exact, const std::filesystem::path& file)
-{
-  output::Summary summary;
-  describe(preparation, summary);
-  const int ranks = ranks_of(preparation.comm);
-  const HistoryLine& last = result.lines.back();
-  summary.set("particles", result.particles);
-  summary.set("ranks", ranks);
-  summary.set("steps", result.steps);
-  summary.set("time_step", result.first_time_step);
-  summary.set("end_time", result.end_time);
-  if (result.properties) summary.set("ramp_time", preparation.layout.piston.ramp_time);
-  summary.set("strain", last.strain);
-  summary.set("wall_seconds", result.wall_seconds);
-  summary.set("loop_seconds", result.step_seconds + result.observer_seconds);
-  summary.set("output_seconds", result.observer_seconds);
-  summary.set("ns_per_particle_step", result.ns_per_particle_step(ranks));
-  summary.set("largest_rank_bytes", result.largest_rank_bytes);
-  describe(result.cooperation, summary);
-  summary.set("energy_error", last.energy_error);
-  summary.set("largest_energy_error", result.largest_energy_error);
-  if (result.properties) {
-    describe_curve(*result.properties, summary);
-    summary.set("deepest_behind_piston", result.deepest_behind_piston);
-  }
-  exact.describe(summary);
-  for (const auto& [what, version] : provenance()) summary.section("provenance").set(what, version);
-  summary.section("provenance").set("scene", preparation.scene.file.string());
-  summary.write(file);
-}
 
 void print(const analysis::CompressionProperties& found)
 {
@@ -182,8 +114,9 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const std::filesyst
   HistoryWriter<Dim> history(comm, folder);
   Snapshots<Dim> snapshots(preparation, folder);
   ProgressWriter<Dim> progress(comm);
+  FailureSnapshot<Dim> failure(preparation, folder);
   ExactSolution<Dim> exact(preparation, folder);
-  const std::array<Observer<Dim>*, 4> observers{&history, &progress, &snapshots, &exact};
+  const std::array<Observer<Dim>*, 5> observers{&history, &progress, &snapshots, &failure, &exact};
   const RunResult result = run<Dim>(preparation, observers);
   on_rank_zero(comm, [&] {
     write_summary(preparation, result, exact, folder / "summary.json");

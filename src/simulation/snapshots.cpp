@@ -136,6 +136,19 @@ std::vector<double> moments_of(const Preparation<Dim>& preparation)
 }  // namespace
 
 template <int Dim>
+output::Snapshot snapshot_of(Formulation<Dim>& formulation, double strain,
+                             const std::vector<scene::Field>& fields)
+{
+  output::Snapshot snapshot;
+  snapshot.time = formulation.time();
+  snapshot.strain = strain;
+  snapshot.step = formulation.steps();
+  snapshot.position = vectors(formulation.bodies(), "position");
+  for (const Field field : fields) snapshot.fields.push_back(make_field(field, formulation));
+  return snapshot;
+}
+
+template <int Dim>
 Snapshots<Dim>::Snapshots(const Preparation<Dim>& preparation, const std::filesystem::path& folder)
     : fields_(preparation.scene.output.fields),
       series_(preparation.comm, folder, preparation.scene.name,
@@ -155,14 +168,25 @@ void Snapshots<Dim>::look(const typename Observer<Dim>::State& state)
   }
   if (!due) return;
   formulation.check();
-  output::Snapshot snapshot;
-  snapshot.time = formulation.time();
-  snapshot.strain = state.strain;
-  snapshot.step = formulation.steps();
-  snapshot.position = vectors(formulation.bodies(), "position");
-  for (const Field field : fields_) snapshot.fields.push_back(make_field(field, formulation));
-  series_.write(snapshot);
+  series_.write(snapshot_of(formulation, state.strain, fields_));
 }
+
+template <int Dim>
+void Snapshots<Dim>::kept()
+{
+  next_when_kept_ = next_;
+  written_when_kept_ = series_.written();
+}
+
+template <int Dim>
+void Snapshots<Dim>::went_back(const GoingBack&)
+{
+  next_ = next_when_kept_;
+  series_.cut(written_when_kept_);
+}
+
+template output::Snapshot snapshot_of(Formulation<2>&, double, const std::vector<scene::Field>&);
+template output::Snapshot snapshot_of(Formulation<3>&, double, const std::vector<scene::Field>&);
 
 template class Snapshots<2>;
 template class Snapshots<3>;

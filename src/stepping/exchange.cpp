@@ -36,18 +36,6 @@ MoveBounds<Dim> move_bounds(const Decomposition<Dim>& decomposition)
   return bounds;
 }
 
-template <int Dim>
-LostParticle<Dim> strayed(const ParticleStore& particles, LocalIndex particle)
-{
-  const int velocity = particles.motion().find("velocity");
-  LostParticle<Dim> lost{particles.ids()[particle]};
-  for (int d = 0; d < Dim; ++d) {
-    lost.position[d] = particles.motion()(d, particle);
-    lost.velocity[d] = particles.motion()(velocity + d, particle);
-  }
-  return lost;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -92,9 +80,11 @@ void Exchange<Dim>::visit_interior(Bodies& bodies, const PartVisit& visit)
 
 template <int Dim>
 void Exchange<Dim>::pass_and_sum(Bodies& bodies, std::span<const NodeColumn> columns,
-                                 const Pass& pass)
+                                 const Moment& moment, const Pass& pass)
 {
-  const auto visit = [&](const BodyPart<Dim>& part, std::size_t) { pass(part); };
+  const auto visit = [&](const BodyPart<Dim>& part, std::size_t) {
+    if (const auto lost = pass(part).lost) note_loss(part.body, *lost, moment);
+  };
   visit_near(bodies, visit);
   halo_.begin(columns);
   visit_interior(bodies, visit);
@@ -109,7 +99,7 @@ void Exchange<Dim>::move_and_sum(Bodies& bodies, std::span<const NodeColumn> col
   largest_speed_ = 0;
   std::vector<std::optional<LostParticle<Dim>>> lost(bodies.size());
   const auto visit = [&](const BodyPart<Dim>& part, std::size_t body) {
-    const MoveOutcome<Dim> outcome = pass(part, bounds_);
+    const PassOutcome<Dim> outcome = pass(part, bounds_);
     largest_speed_ = std::max(largest_speed_, outcome.largest_speed);
     if (outcome.lost && !lost[body]) lost[body] = outcome.lost;
   };
@@ -157,7 +147,7 @@ void Exchange<Dim>::collect_leavers(Bodies& bodies, const Moment& moment)
     if (const auto particle = migration_.collect(part, body)) astray.push_back({body, *particle});
   });
   for (const auto& [body, particle] : astray)
-    note_loss(bodies[body], strayed<Dim>(bodies[body].particles, particle), moment);
+    note_loss(bodies[body], lost_particle<Dim>(bodies[body].particles, particle), moment);
   migration_.send();
 }
 
@@ -238,6 +228,10 @@ void Exchange<Dim>::archive_loss(Archive& archive)
   archive.value("id", loss.particle.id);
   archive.values("position", {loss.particle.position.data(), std::size_t(Dim)});
   archive.values("velocity", {loss.particle.velocity.data(), std::size_t(Dim)});
+  int fault = int(loss.particle.fault);
+  archive.value("fault", fault);
+  loss.particle.fault = Fault(fault);
+  archive.value("ratio", loss.particle.ratio);
   archive.text("body", loss.body);
   archive.value("step", loss.moment.step);
   archive.value("time", loss.moment.time);

@@ -3,6 +3,7 @@
 #include <mpm/stepping/updated_lagrangian.hpp>
 
 #include <algorithm>
+#include <numeric>
 
 namespace mpm {
 
@@ -70,6 +71,18 @@ GlobalIndex UpdatedLagrangian<Dim>::repartition(const Ownership<Dim>& ownership)
   const GlobalIndex sent = redistribute(next, setup_.bodies).sent;
   connect(std::move(next));
   return sent;
+}
+
+template <int Dim>
+void UpdatedLagrangian<Dim>::begin_loading(const Ownership<Dim>& ownership)
+{
+  counters_ = counters();
+  for (Body<Dim>& body : setup_.bodies) {
+    std::vector<LocalIndex> all(std::size_t(body.particles.size()));
+    std::iota(all.begin(), all.end(), 0);
+    body.particles.erase(all);
+  }
+  connect(Decomposition<Dim>(decomposition().comm(), ownership));
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 /// What the ranks of a run agree on from time to time, and how it ends when a particle is lost.
 
 #include <mpm/core/error.hpp>
+#include <mpm/materials/deformation_bounds.hpp>
 #include <mpm/materials/present_wave_speed.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/stepping/updated_lagrangian.hpp>
@@ -32,7 +33,21 @@ template <int Dim>
 std::string words_for(const typename Exchange<Dim>::Loss& loss, const GridGeometry<Dim>& geometry)
 {
   const LostParticle<Dim>& lost = loss.particle;
-  bool outside = false, finite = true;
+  const auto tell = [&](const std::string& what, const char* remedy) {
+    return fmt::format(
+        "particle {} of body '{}' {} at ({}) m in step {}, t = {:.6g} s, with velocity ({}) m/s. "
+        "{}",
+        lost.id, loss.body, what, text_of<Dim>(lost.position, 6), loss.moment.step,
+        loss.moment.time, text_of<Dim>(lost.velocity, 4), remedy);
+  };
+  if (lost.fault == Fault::inverted && std::isfinite(lost.ratio))
+    return tell(fmt::format("was turned inside out, det(I + dt L) = {:.3g},", lost.ratio),
+                "Lower numerics.cfl.");
+  if (lost.fault == Fault::beyond_bounds && std::isfinite(lost.ratio))
+    return tell(fmt::format("has {:.3g} times its first volume, bounds are {} and {},", lost.ratio,
+                            least_volume_ratio, largest_volume_ratio),
+                "Lower numerics.cfl, or give it a stiffer material.");
+  bool outside = false, finite = std::isfinite(lost.ratio);
   for (int d = 0; d < Dim; ++d) {
     finite = finite && std::isfinite(lost.position[d]) && std::isfinite(lost.velocity[d]);
     if (geometry.periodic[d]) continue;
@@ -43,12 +58,9 @@ std::string words_for(const typename Exchange<Dim>::Loss& loss, const GridGeomet
                      : outside ? "left the grid"
                                : "moved by more than a cell in one step";
   const char* remedy = !finite || !outside
-                           ? "Lower numerics.cfl, or look at the last snapshots."
+                           ? "Lower numerics.cfl."
                            : "Give the grid a wider grid.margin, or lower numerics.cfl.";
-  return fmt::format(
-      "particle {} of body '{}' {} at ({}) m in step {}, t = {:.6g} s, with velocity ({}) m/s. {}",
-      lost.id, loss.body, what, text_of<Dim>(lost.position, 6), loss.moment.step, loss.moment.time,
-      text_of<Dim>(lost.velocity, 4), remedy);
+  return tell(what, remedy);
 }
 
 }  // namespace
@@ -111,8 +123,15 @@ void UpdatedLagrangian<Dim>::check()
   if (checked_ == steps_) return;
   constexpr double never = -std::numeric_limits<double>::infinity();
   double wave_speed = 0;
-  for (const Body<Dim>& body : bodies())
+  for (const Body<Dim>& body : bodies()) {
     wave_speed = std::max(wave_speed, present_wave_speed(body));
+    if (const auto found = find_beyond_bounds(body)) {
+      LostParticle<Dim> lost = lost_particle<Dim>(body.particles, found->particle);
+      lost.fault = Fault::beyond_bounds;
+      lost.ratio = found->volume_ratio;
+      exchange_->note_loss(body, lost, {steps_, time_});
+    }
+  }
   const auto& loss = exchange_->loss();
   const double particles = this->particles();
   const double work = particles + cost_of_node * grid().active_nodes();
@@ -140,7 +159,7 @@ void UpdatedLagrangian<Dim>::stop(GlobalIndex first_loss)
   agree(decomposition().comm(), [&] {
     const auto& loss = exchange_->loss();
     if (loss && loss->moment.step == first_loss)
-      throw NumericalError(words_for<Dim>(*loss, grid().geometry()));
+      throw NumericalError(words_for<Dim>(*loss, grid().geometry()), loss->particle.id);
   });
   throw NumericalError("a rank stopped without a reason");  // agree() has thrown before
 }

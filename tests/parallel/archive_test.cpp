@@ -222,6 +222,28 @@ TEST(SavedLoadBalance, MovesTheBordersAtTheSameStepsToTheSamePlaces)
   }
 }
 
+TEST(SavedState, ComesBackIntoItsRunAfterTheBordersHaveMoved)
+{
+  const GridGeometry<2> grid = BlockRun::grid_of({50, 50});
+  const Ownership<2> borders = weighted_cuts<2>(grid, ranks(), {0, 0}, {}, {});
+  BlockRun run({MPI_COMM_WORLD, borders}, {"gimp", "flip", "musl"},
+               {{{4, 4}, {20, 20}, {speed, speed}}}, {});
+  step(run, steps_before);
+  MemoryArchive archive = saved(run);
+  step(run, steps_after);
+  MemoryArchive expected = saved(run);
+  for (int time = 0; time < 2; ++time) {
+    run.stepper().repartition(scattered_blocks(grid, 5, ranks(), 3));
+    step(run, 30);
+    run.stepper().begin_loading(borders);
+    load(archive, run);
+    step(run, steps_after);
+    std::vector<std::string> names = differences(expected, saved(run));
+    std::erase(names, "counters/waiting_seconds");
+    EXPECT_THAT(names, IsEmpty());
+  }
+}
+
 TEST(SavedLoss, IsToldInTheSameWordsByTheRunThatLoadsIt)
 {
   const auto make = [] {

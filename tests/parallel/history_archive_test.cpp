@@ -22,7 +22,7 @@ struct MeasuredRun {
   BlockRun run;
   History<2> history;
 
-  MeasuredRun() : run(make()), history(run.stepper(), apparatus()) { history.record(0); }
+  MeasuredRun() : run(make()), history(run.stepper(), apparatus(), speed) { history.record(0); }
 
   BlockRun make()
   {

@@ -1,6 +1,8 @@
 #pragma once
 /// The ways a run can fail, each with its exit status, and the check of our own assumptions.
 
+#include <mpm/core/types.hpp>
+
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,7 +26,17 @@ class InputError : public std::runtime_error {
 
 /// The computation left the range in which it means anything (NaN, a particle outside the grid).
 class NumericalError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+ public:
+  static constexpr GlobalIndex none = -1;
+  explicit NumericalError(const std::string& text, GlobalIndex particle = none)
+      : std::runtime_error(text), particle_(particle)
+  {
+  }
+  /// Id of the particle at which it showed, or `none`.
+  GlobalIndex particle() const { return particle_; }
+
+ private:
+  GlobalIndex particle_;
 };
 
 /// Reading or writing a file failed for a reason that is not the scene's fault.

@@ -41,6 +41,8 @@ class Law {
   virtual void cauchy_stress(const double* state, double* stress) const = 0;
   /// Elastic energy of one block, J per particle.
   virtual Lanes elastic_energy(const double* state) const = 0;
+  /// J, by which tau = J sigma, of one block; lanes of padding may hold anything.
+  virtual Lanes volume_ratio(const double* state) const = 0;
 
   /// Speed of the fastest wave in the undeformed material, m/s.
   virtual double wave_speed() const = 0;

@@ -17,6 +17,7 @@ struct PictureFigures {
   double location_threshold = 0;  ///< that parts the mean grays of the locations; 0 with bands
   double density = 0;             ///< share of the pixels that are wall
   std::int64_t removed = 0;       ///< locations removed as specks or unconnected pieces
+  std::int64_t unconnected = 0;   ///< locations left in pieces that do not hang on the largest
 };
 
 /// Gray levels [from, to) made of one material.
@@ -39,6 +40,11 @@ class Section {
   std::vector<std::int8_t> materials(const IndexBox<2>& part) const;
 
  private:
+  /// `rows`: this part's slab, `filled`: locations of all parts. Collective.
+  void remove_pieces(const scene::Micrograph& micrograph, Lattice<2>& rows, double filled,
+                     const Share& share);
+  void leave_out_removed(const IndexBox<2>& part, std::vector<std::int8_t>& materials) const;
+
   GrayImage image_;
   IndexVec<2> count_;
   std::vector<Band> bands_;   ///< of the locations' mean grays

@@ -21,6 +21,8 @@ class HistoryFile {
  public:
   HistoryFile(const std::filesystem::path& file, std::vector<HistoryColumn> columns);
   void append(std::span<const double> row);  ///< one value per column, 12 digits; flushed
+  /// Takes away all lines but the first ones. Throws FileError.
+  void cut(std::size_t lines);
 
  private:
   void write_line(const std::string& line);
@@ -28,7 +30,7 @@ class HistoryFile {
   std::filesystem::path file_;
   std::ofstream stream_;
   std::size_t columns_;
-  std::uintmax_t whole_bytes_ = 0;  ///< of the lines that are on disk complete
+  std::vector<std::uintmax_t> ends_;  ///< of the header and each line that is on disk complete
 };
 
 /// A history as read back: columns by name without the unit.

@@ -46,6 +46,8 @@ class SnapshotSeries {
   void write(const Snapshot& snapshot);
 
   int written() const { return written_; }
+  /// Takes down all but the first ones. Collective.
+  void cut(int written);
 
  private:
   MPI_Comm comm_;

@@ -35,6 +35,11 @@ class Summary {
     put(std::move(key), std::move(values));
   }
 
+  void set(std::string key, std::vector<std::string> words)
+  {
+    put(std::move(key), std::move(words));
+  }
+
   /// The nested object of that name, made if it is not there; the reference stays valid as long as
   /// this summary lives and the key is not set to something else.
   Summary& section(const std::string& key);
@@ -43,8 +48,9 @@ class Summary {
   void write(const std::filesystem::path& file) const;  ///< whole or not at all; throws FileError
 
  private:
-  using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string,
-                             std::vector<double>, std::vector<std::int64_t>, std::unique_ptr<Summary>>;
+  using Value =
+      std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>,
+                   std::vector<std::int64_t>, std::vector<std::string>, std::unique_ptr<Summary>>;
   void put(std::string key, Value value);
 
   std::vector<std::pair<std::string, Value>> entries_;

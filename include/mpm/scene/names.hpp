@@ -44,6 +44,9 @@ inline constexpr auto names_of<DecompositionKind> =
                                              {DecompositionKind::cuts, "cuts"},
                                              {DecompositionKind::metis, "metis"}});
 template <>
+inline constexpr auto names_of<Recovery> =
+    std::to_array<Named<Recovery>>({{Recovery::stop, "stop"}, {Recovery::retry, "retry"}});
+template <>
 inline constexpr auto names_of<Grip> = std::to_array<Named<Grip>>({{Grip::stick, "stick"},
                                                                    {Grip::slip, "slip"}});
 template <>

@@ -101,6 +101,12 @@ struct Grid {
   bool operator==(const Grid&) const = default;
 };
 
+/// What follows a numerical failure.
+enum class Recovery {
+  stop,
+  retry  ///< from the last sound state with half the step
+};
+
 enum class DecompositionKind { automatic, cuts, metis };
 
 struct Numerics {
@@ -113,6 +119,7 @@ struct Numerics {
   DecompositionKind decomposition = DecompositionKind::automatic;
   PerAxis<int> ranks{};          ///< process grid of cuts; 0: chosen
   int repartition_interval = 0;  ///< steps; 0: when it pays
+  Recovery recovery = Recovery::stop;
   bool operator==(const Numerics&) const = default;
 };
 

@@ -5,6 +5,7 @@
 #include <mpm/output/summary.hpp>
 #include <mpm/simulation/run.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ class ExactSolution final : public Observer<Dim> {
   /// Collective.
   void line(const typename Observer<Dim>::State& state, const HistoryLine& line) override;
 
+  void went_back(const GoingBack& back) override;
+
   /// The errors at the end, and over the largest size of the exact solution in the run.
   void describe(output::Summary& summary) const;
   /// A line for each quantity on the terminal.
@@ -35,8 +38,9 @@ class ExactSolution final : public Observer<Dim> {
     Quantity quantity;
     std::string what, unit;
     std::vector<const Formula*> exact;    ///< per component; nullptr: not compared
-    double error = 0, largest_error = 0;  ///< of the last line
-    double worst_error = 0, size = 0;     ///< roots of mean squares, largest of all lines
+    /// Of each line: root mean square and largest error, root mean square of the exact solution.
+    std::vector<double> error, largest_error, size;
+    double whole_size() const { return std::ranges::max(size); }
   };
   /// Calls visit(comparison, whether it is its first component, mass, value, exact value) for each
   /// particle.

@@ -6,7 +6,6 @@
 #include <mpm/materials/laws.hpp>
 #include <mpm/micrograph/specimen.hpp>
 #include <mpm/scene/scene.hpp>
-#include <mpm/stepping/time_step.hpp>
 
 #include <array>
 #include <optional>
@@ -34,11 +33,6 @@ struct Layout {
     double density_ratio;
   };
   std::optional<LoadCellBox> load_cell;
-
-  TimeStep time_step() const
-  {
-    return {cfl, geometry.smallest_spacing(), wave_speed, largest_speed};
-  }
   /// Cell along an axis of a location counted from the specimen's lower corner.
   LocalIndex cell_of_location(LocalIndex location, int axis) const
   {

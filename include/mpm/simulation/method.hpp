@@ -5,11 +5,19 @@
 #include <mpm/parallel/partition.hpp>
 #include <mpm/scene/scene.hpp>
 #include <mpm/simulation/layout.hpp>
+#include <mpm/stepping/time_step.hpp>
 #include <mpm/stepping/update_order.hpp>
 
 namespace mpm {
 
+/// Of its shape function, scheme and update order together.
+std::optional<double> stable_cfl_of(const scene::Numerics& numerics);
 double default_cfl(const scene::Numerics& numerics);
+template <int Dim>
+TimeStep time_step_of(const Layout<Dim>& layout);
+/// At least, or where the scene ends the run before: compression makes steps shorter on the way.
+template <int Dim>
+double expected_steps(const scene::Scene& scene, const Layout<Dim>& layout);
 
 template <int Dim>
 std::unique_ptr<Transfer<Dim>> make_transfer(const scene::Numerics& numerics,

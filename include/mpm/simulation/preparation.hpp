@@ -16,6 +16,7 @@ struct Preparation {
   Layout<Dim> layout;
   Partition<Dim> partition;  ///< of the particles at the start
   MPI_Comm comm;
+  std::vector<std::string> warnings;
 
   /// Collective. Throws InputError on every rank.
   Preparation(MPI_Comm comm, const scene::Scene& scene, std::optional<micrograph::Picture> picture);

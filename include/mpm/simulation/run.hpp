@@ -22,6 +22,18 @@ struct Cooperation {
   double mean_imbalance = 1, mean_work_imbalance = 1;
 };
 
+/// A failure after which a run went on from its last sound state.
+struct GoingBack {
+  GlobalIndex failed_step;
+  double failed_time;  ///< s
+  std::string reason;
+  GlobalIndex step;   ///< that the run went back to
+  double time;        ///< s
+  std::size_t lines;  ///< of the history that are left
+  double step_share;  ///< of the step that the scene asks for, from there on
+  std::string text() const;
+};
+
 /// The same on every rank.
 struct RunResult {
   std::vector<HistoryLine> lines;
@@ -36,10 +48,12 @@ struct RunResult {
   Cooperation cooperation;
   /// Of a run with a piston.
   std::optional<analysis::CompressionProperties> properties;
+  std::vector<GoingBack> goings_back;
+  GlobalIndex repeated_steps = 0;
 
   double ns_per_particle_step(int ranks) const
   {
-    return 1e9 * step_seconds * ranks / (double(particles) * double(steps));
+    return 1e9 * step_seconds * ranks / (double(particles) * double(steps + repeated_steps));
   }
 };
 
@@ -60,6 +74,15 @@ class Observer {
   /// When a line of the history has been measured.
   virtual void line(const State&, const HistoryLine&) {}
   virtual void finish() {}
+
+  /// Whether the last sound state is kept for this one's `failed`.
+  virtual bool wants_last_sound_state() const { return false; }
+  /// The present state is the one to go back to.
+  virtual void kept() {}
+  /// The run is where it was when a state was kept last: what came after it has not been.
+  virtual void went_back(const GoingBack&) {}
+  /// The run ends with an error. Returns words on what is left behind, for its message.
+  virtual std::string failed(const State& /*last_sound*/) { return ""; }
 };
 
 /// Steps the scene to its end. Collective. Throws on every rank or on none.

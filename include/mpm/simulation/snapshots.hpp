@@ -6,18 +6,27 @@
 
 namespace mpm {
 
+/// All particles of this rank as they are.
+template <int Dim>
+output::Snapshot snapshot_of(Formulation<Dim>& formulation, double strain,
+                             const std::vector<scene::Field>& fields);
+
 template <int Dim>
 class Snapshots final : public Observer<Dim> {
  public:
   /// Collective.
   Snapshots(const Preparation<Dim>& preparation, const std::filesystem::path& folder);
   void look(const typename Observer<Dim>::State& state) override;
+  void kept() override;
+  void went_back(const GoingBack& back) override;
 
  private:
   std::vector<scene::Field> fields_;
   output::SnapshotSeries series_;
   std::vector<double> moments_;  ///< s, ascending
   std::size_t next_ = 0;
+  std::size_t next_when_kept_ = 0;
+  int written_when_kept_ = 0;
 };
 
 }  // namespace mpm

@@ -32,12 +32,12 @@ class Exchange {
   const GridTopology<Dim>& topology() const { return topology_; }
   Halo& halo() { return halo_; }
 
-  using Pass = std::function<void(const BodyPart<Dim>&)>;
+  using Pass = std::function<PassOutcome<Dim>(const BodyPart<Dim>&)>;
   using MovingPass =
-      std::function<MoveOutcome<Dim>(const BodyPart<Dim>&, const MoveBounds<Dim>& bounds)>;
+      std::function<PassOutcome<Dim>(const BodyPart<Dim>&, const MoveBounds<Dim>& bounds)>;
   /// A pass over all particles that adds to nodes, and the sum of these columns over the ranks.
   void pass_and_sum(std::vector<Body<Dim>>& bodies, std::span<const NodeColumn> columns,
-                    const Pass& pass);
+                    const Moment& moment, const Pass& pass);
   /// The same for a pass that moves them; those that left go to their owner.
   void move_and_sum(std::vector<Body<Dim>>& bodies, std::span<const NodeColumn> columns,
                     const Moment& moment, double dt, const MovingPass& pass);
@@ -54,6 +54,8 @@ class Exchange {
     Moment moment;
   };
   const std::optional<Loss>& loss() const { return loss_; }
+  /// Unless there is one already.
+  void note_loss(const Body<Dim>& body, const LostParticle<Dim>& lost, const Moment& moment);
 
   double largest_speed() const { return largest_speed_; }  ///< m/s, in the last move
   GlobalIndex migrated() const { return migrated_; }
@@ -78,7 +80,6 @@ class Exchange {
   void visit_interior(Bodies& bodies, const PartVisit& visit);
   void collect_leavers(Bodies& bodies, const Moment& moment);
   void exchange_leavers(Bodies& bodies);
-  void note_loss(const Body<Dim>& body, const LostParticle<Dim>& lost, const Moment& moment);
   void sort_body(std::size_t number, ParticleStore& particles);
   void archive_part(Archive& archive) const;
   void archive_loss(Archive& archive);

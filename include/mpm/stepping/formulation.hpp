@@ -46,8 +46,9 @@ class Formulation {
   /// Every `steps_between_checks` steps it ends with `check`.
   virtual void step(double dt) = 0;
   static constexpr GlobalIndex steps_between_checks = 20;
-  /// Throws NumericalError on every rank if a particle of any rank was lost or stopped being a
-  /// number since the last check; what is measured after that means nothing.
+  /// Throws NumericalError on every rank if a particle of any rank was lost, was turned inside out
+  /// or stopped being a number since the last check, or has a volume ratio beyond its bounds; what
+  /// is measured after that means nothing.
   virtual void check() = 0;
   virtual const Agreed& agreed() const = 0;
 
@@ -74,6 +75,9 @@ class Formulation {
   virtual Counters counters() const = 0;
   virtual std::size_t bytes() const = 0;  ///< of particle and node arrays on this rank
   virtual void archive(Archive& archive) = 0;
+  /// Takes up these cells without any particle: `archive` is about to load a state that was saved
+  /// on them. Whatever ended the run is forgotten.
+  virtual void begin_loading(const Ownership<Dim>& ownership) = 0;
 
   LocalIndex particles() const
   {

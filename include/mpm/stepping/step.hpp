@@ -37,7 +37,7 @@ struct Step {
   /// Mass and momentum, and the load force that particles will bring.
   std::vector<NodeColumn> sums(std::initializer_list<ColumnOf> which) const;
   /// Once a part has moved: P2G of the loads on its particles, for the next step.
-  MoveOutcome<Dim> with_loads(const BodyPart<Dim>& part, double dt, MoveOutcome<Dim> moved) const
+  PassOutcome<Dim> with_loads(const BodyPart<Dim>& part, double dt, PassOutcome<Dim> moved) const
   {
     slots.loads.scatter(part, transfer, grid(), fields_of(part), time() + dt);
     return moved;

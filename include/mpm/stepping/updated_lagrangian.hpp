@@ -45,6 +45,7 @@ class UpdatedLagrangian final : public Formulation<Dim> {
   std::size_t bytes() const override;
   /// Loading: into a formulation set up as the saved one was, on the same part of the grid.
   void archive(Archive& archive) override;
+  void begin_loading(const Ownership<Dim>& ownership) override;
 
   const GridTopology<Dim>& grid() const { return exchange_->topology(); }
   const std::vector<NodeFields<Dim>>& fields() const { return fields_; }

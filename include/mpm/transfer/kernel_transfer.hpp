@@ -2,6 +2,7 @@
 /// The passes, compiled per dimension, shape function and scheme.
 
 #include <mpm/transfer/gather.hpp>
+#include <mpm/transfer/inversion.hpp>
 #include <mpm/transfer/scatter.hpp>
 #include <mpm/transfer/scheme.hpp>
 #include <mpm/transfer/transfer.hpp>
@@ -67,13 +68,13 @@ class KernelTransfer final : public Transfer<Dim> {
     }
   }
 
-  void musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
-                     NodeFields<Dim>& fields) const override
+  PassOutcome<Dim> musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                 NodeFields<Dim>& fields) const override
   {
-    pass<PassContent{.velocity = true, .scatter = {.remap = true}}>(part, grid, fields, 0, nullptr);
+    return pass<PassContent{.velocity = true, .scatter = {.remap = true}}>(part, grid, fields, 0, nullptr);
   }
 
-  MoveOutcome<Dim> musl_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+  PassOutcome<Dim> musl_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                NodeFields<Dim>& fields, double dt,
                                const MoveBounds<Dim>& bounds) const override
   {
@@ -83,14 +84,14 @@ class KernelTransfer final : public Transfer<Dim> {
         part, grid, fields, dt, &bounds);
   }
 
-  void usf_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid, NodeFields<Dim>& fields,
-                  double dt) const override
+  PassOutcome<Dim> usf_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                              NodeFields<Dim>& fields, double dt) const override
   {
-    pass<PassContent{.gradient = true, .scatter = {.force = true}}>(part, grid, fields, dt,
-                                                                    nullptr);
+    return pass<PassContent{.gradient = true, .scatter = {.force = true}}>(part, grid, fields, dt,
+                                                                           nullptr);
   }
 
-  MoveOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+  PassOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                 NodeFields<Dim>& fields, double dt,
                                 const MoveBounds<Dim>& bounds) const override
   {
@@ -99,7 +100,7 @@ class KernelTransfer final : public Transfer<Dim> {
         part, grid, fields, dt, &bounds);
   }
 
-  MoveOutcome<Dim> usl(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+  PassOutcome<Dim> usl(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                        NodeFields<Dim>& fields, double dt,
                        const MoveBounds<Dim>& bounds) const override
   {
@@ -160,7 +161,7 @@ class KernelTransfer final : public Transfer<Dim> {
   }
 
   template <PassContent Content>
-  MoveOutcome<Dim> pass(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+  PassOutcome<Dim> pass(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                         NodeFields<Dim>& fields, double dt, const MoveBounds<Dim>* bounds) const
   {
     constexpr int stress_width = symmetric_components<Dim> * lane_count;
@@ -168,7 +169,7 @@ class KernelTransfer final : public Transfer<Dim> {
     alignas(lane_alignment) double force_stress[chunk * stress_width];
 
     const GridFrame<Dim> frame(grid), force_frame = frame.with_negative_gradients();
-    MoveOutcome<Dim> outcome;
+    PassOutcome<Dim> outcome;
     Lanes largest_speed = 0.0;
     Scatter<Dim, Shape, Content.scatter> scatter(grid, fields);
     ParticleStore& particles = part.body.particles;
@@ -179,6 +180,11 @@ class KernelTransfer final : public Transfer<Dim> {
       double* state = particles.state().block(first);
       fetch_ahead<Content>(particles, std::min(first + blocks_ahead, part.end - 1));
       if constexpr (Content.gradient) {
+        for (int k = 0; k < blocks; ++k) {
+          const Lanes f = step_determinant<Dim>(gradient + k * Dim * Dim * lane_count, dt);
+          if (!stdx::all_of(f > 0.0)) [[unlikely]]
+            report_inverted(particles, first + k, f, outcome);
+        }
         part.body.law->update(state, blocks, gradient, dt, force_stress);
         // The law's arithmetic is one long chain; what the next blocks gather fills its gaps.
         gather_gradients(particles, first + chunk, part.end, frame, grid, fields, gradient);
@@ -200,7 +206,7 @@ class KernelTransfer final : public Transfer<Dim> {
       const GridFrame<Dim>& force_frame, const GridTopology<Dim>& grid,
       const NodeFields<Dim>& fields, double dt, const MoveBounds<Dim>* bounds,
       const double* force_stress, Scatter<Dim, Shape, Content.scatter>& scatter,
-      Lanes& largest_speed, MoveOutcome<Dim>& outcome) const
+      Lanes& largest_speed, PassOutcome<Dim>& outcome) const
   {
     constexpr bool needs_affine =
         Scheme::affine && (Content.scatter.momentum || Content.scatter.remap);
@@ -292,7 +298,7 @@ class KernelTransfer final : public Transfer<Dim> {
   /// soon after.
   void report_lost(const ParticleStore& particles, LocalIndex block, const LaneMask& reach,
                    const Lanes (&v)[Dim], const MoveBounds<Dim>& bounds, Lanes (&x)[Dim],
-                   MoveOutcome<Dim>& outcome) const
+                   PassOutcome<Dim>& outcome) const
   {
     for (int lane = 0; lane < lane_count; ++lane) {
       if (reach[lane]) continue;

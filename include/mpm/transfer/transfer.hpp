@@ -12,18 +12,40 @@
 
 namespace mpm {
 
-/// A particle that went where this rank's nodes do not reach, or that is no longer a number.
+/// What ends a run at a particle.
+enum class Fault : int {
+  astray,         ///< it went where this rank's nodes do not reach, or is no longer a number
+  inverted,       ///< det(I + dt L) of a step is not positive
+  beyond_bounds,  ///< its volume ratio is, materials/deformation_bounds.hpp
+};
+
 template <int Dim>
 struct LostParticle {
   GlobalIndex id;
   Vec<Dim> position = Vec<Dim>::Zero();  ///< m
   Vec<Dim> velocity = Vec<Dim>::Zero();  ///< m/s
+  Fault fault = Fault::astray;
+  double ratio = 1;  ///< of volumes: det(I + dt L) where inverted, J where beyond bounds
 };
 
-/// What a pass that moves particles found out on the way.
+/// Place and velocity of a particle as they are.
 template <int Dim>
-struct MoveOutcome {
-  double largest_speed = 0;  ///< m/s, largest component of a grid velocity
+LostParticle<Dim> lost_particle(const ParticleStore& particles, LocalIndex particle)
+{
+  const int position = particles.motion().find("position");
+  const int velocity = particles.motion().find("velocity");
+  LostParticle<Dim> lost{.id = particles.ids()[particle]};
+  for (int d = 0; d < Dim; ++d) {
+    lost.position[d] = particles.motion()(position + d, particle);
+    lost.velocity[d] = particles.motion()(velocity + d, particle);
+  }
+  return lost;
+}
+
+/// What a pass found out on the way.
+template <int Dim>
+struct PassOutcome {
+  double largest_speed = 0;  ///< m/s, largest component of a grid velocity, where it moves
   std::optional<LostParticle<Dim>> lost;
 };
 
@@ -68,22 +90,22 @@ class Transfer {
 
   // MUSL, two passes.
   /// G2P of the velocity at the old place, and its momentum back to the same nodes.
-  virtual void musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+  virtual PassOutcome<Dim> musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                              NodeFields<Dim>& fields) const = 0;
   /// Velocity gradient at the old place, stress, move; P2G of mass, momentum, force at the new.
-  virtual MoveOutcome<Dim> musl_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+  virtual PassOutcome<Dim> musl_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                        NodeFields<Dim>& fields, double dt,
                                        const MoveBounds<Dim>& bounds) const = 0;
   // USF, two passes.
   /// Velocity gradient, stress, P2G of the force.
-  virtual void usf_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+  virtual PassOutcome<Dim> usf_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                           NodeFields<Dim>& fields, double dt) const = 0;
   /// G2P of the velocity, move; P2G of mass and momentum at the new place.
-  virtual MoveOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+  virtual PassOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                         NodeFields<Dim>& fields, double dt,
                                         const MoveBounds<Dim>& bounds) const = 0;
   // USL, one pass.
-  virtual MoveOutcome<Dim> usl(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+  virtual PassOutcome<Dim> usl(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                NodeFields<Dim>& fields, double dt,
                                const MoveBounds<Dim>& bounds) const = 0;
 };

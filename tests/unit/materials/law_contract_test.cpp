@@ -109,6 +109,7 @@ TEST_P(LawContract, ForceIsVolumeTimesKirchhoffStressBothFromTheUpdateAndFromThe
     const Matrix<Dim> cauchy = point.cauchy().template topLeftCorner<Dim, Dim>();
     const double ratio = point.kirchhoff().norm() / cauchy.norm();
     EXPECT_LT((point.kirchhoff() - ratio * cauchy).norm(), rounding);
+    EXPECT_NEAR(point.volume_ratio(), ratio, 1e-11);
     if (Dim == 3 || GetParam().plane == PlaneAssumption::strain) {
       EXPECT_NEAR(ratio, point.deformation().determinant(), 1e-11);
     }

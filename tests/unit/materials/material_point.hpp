@@ -71,6 +71,7 @@ class MaterialPoint {
   }
   double dissipated() const { return has("plastic_work") ? column("plastic_work") : 0; }
   double elastic_energy() const { return law_->elastic_energy(state_.block(0))[0]; }
+  double volume_ratio() const { return law_->volume_ratio(state_.block(0))[lane_count - 1]; }
   /// m/s
   double fastest_wave() const
   {

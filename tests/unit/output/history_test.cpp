@@ -102,6 +102,18 @@ TEST(History, UnknownColumnIsAnsweredWithTheKnownOnes)
               HasSubstr("no column 'strian' (there are: strain, stress)"));
 }
 
+TEST(History, LinesThatHaveNotBeenAreCutAndOthersTakeTheirPlace)
+{
+  HistoryFile history(scratch("cut_back.csv"), {{"time", "s"}});
+  for (const double time : {1.0, 2.0, 3.25, 4.0}) history.append(std::vector{time});
+  history.cut(2);
+  EXPECT_EQ(text_of(scratch("cut_back.csv")), "time [s]\n1\n2\n");
+  history.append(std::vector{2.5});
+  EXPECT_EQ(text_of(scratch("cut_back.csv")), "time [s]\n1\n2\n2.5\n");
+  history.cut(0);
+  EXPECT_EQ(text_of(scratch("cut_back.csv")), "time [s]\n");
+}
+
 TEST(History, DirectoryThatIsAFileIsAFileError)
 {
   const auto file = file_with("a_file", "x");

@@ -1,0 +1,38 @@
+#pragma once
+/// Steps that turn a particle inside out: what a law makes of b = f b f^T after such a step looks
+/// sound and means nothing.
+
+#include <mpm/transfer/transfer.hpp>
+
+namespace mpm {
+
+/// det(I + dt L) of one block from its velocity gradients, dv_i/dx_j at i + Dim * j, 1/s.
+template <int Dim>
+[[gnu::always_inline]] inline Lanes step_determinant(const double* gradient, double dt)
+{
+  const auto f = [&](int i, int j) {
+    return double(i == j) + dt * load(gradient + (i + Dim * j) * lane_count);
+  };
+  if constexpr (Dim == 2)
+    return f(0, 0) * f(1, 1) - f(0, 1) * f(1, 0);
+  else
+    return f(0, 0) * (f(1, 1) * f(2, 2) - f(1, 2) * f(2, 1)) -
+           f(0, 1) * (f(1, 0) * f(2, 2) - f(1, 2) * f(2, 0)) +
+           f(0, 2) * (f(1, 0) * f(2, 1) - f(1, 1) * f(2, 0));
+}
+
+/// Notes the first particle of the block whose determinant is not positive.
+template <int Dim>
+[[gnu::noinline]] void report_inverted(const ParticleStore& particles, LocalIndex block,
+                                       const Lanes& determinant, PassOutcome<Dim>& outcome)
+{
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const LocalIndex particle = block * lane_count + lane;
+    if (determinant[lane] > 0 || outcome.lost || particle >= particles.size()) continue;
+    outcome.lost = lost_particle<Dim>(particles, particle);
+    outcome.lost->fault = Fault::inverted;
+    outcome.lost->ratio = determinant[lane];
+  }
+}
+
+}  // namespace mpm

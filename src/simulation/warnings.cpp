@@ -1,0 +1,148 @@
+#include <mpm/micrograph/wall_thickness.hpp>
+#include <mpm/simulation/method.hpp>
+#include <mpm/simulation/warnings.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace mpm {
+
+namespace {
+
+/// Of the wall; less is what corners and round ends of thick walls have.
+constexpr double thin_share = 0.01;
+/// Speed of the piston over that of the fastest wave, up to which both ends of shipped woods feel
+/// the same stress within some percent.
+constexpr double quasi_static_speed = 0.01;
+/// A sudden start sends a wave of this strain through the specimen.
+constexpr double sudden_strain = 1e-3;
+constexpr double many_steps = 1e8;
+
+using Warnings = std::vector<std::string>;
+
+template <int Dim>
+void look_at_walls(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+                   const micrograph::Share& share, Warnings& warnings)
+{
+  const auto count = micrograph::count_thin(specimen, std::span(scene.materials),
+                                            micrograph::thin_wall_cells, share);
+  const double thin = double(count.thin) / double(std::max<GlobalIndex>(count.filled, 1));
+  if (thin > thin_share)
+    warnings.push_back(
+        fmt::format("{:.0f} % of the wall is thinner than two cells: too stiff in bending by tens "
+                    "of percent. Refine grid.cells, or quote no figure without a finer run.",
+                    100 * thin));
+  if (!specimen.picture() || specimen.picture()->unconnected == 0) return;
+  warnings.push_back(
+      fmt::format("{:.2g} % of the wall ({} of {} particles) is in pieces that do not hang on the "
+                  "largest: they "
+                  "fly about until they are caught. Set specimen.remove_unconnected: true.",
+                  100 * double(specimen.picture()->unconnected) / double(specimen.particles()),
+                  specimen.picture()->unconnected, specimen.particles()));
+}
+
+/// Deformable particles in each layer across an axis, of the whole specimen. Collective.
+template <int Dim>
+std::vector<double> layers_of(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+                              int axis, const micrograph::Share& share)
+{
+  constexpr GlobalIndex chunk_locations = 1 << 22;  // held at a time
+  std::vector<double> layers(std::size_t(specimen.count()[axis]));
+  micrograph::for_each_chunk(
+      micrograph::slab(specimen.whole(), share.part, share.parts), chunk_locations,
+      [&](const IndexBox<Dim>& chunk) {
+        const micrograph::Lattice<Dim> lattice = specimen.lattice(chunk);
+        std::size_t place = 0;
+        for_each_index(chunk, [&](const IndexVec<Dim>& at) {
+          const std::int8_t material = lattice.material[place++];
+          if (material != lattice.empty && scene.materials[std::size_t(material)].law->deformable())
+            ++layers[std::size_t(at[axis])];
+        });
+      });
+  share.sum(layers);
+  return layers;
+}
+
+/// Whatever is pushed is pushed on by what lies between, so that only whole empty layers part
+/// particles from the piston.
+template <int Dim>
+void look_at_reach(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+                   const Layout<Dim>& layout, const micrograph::Share& share, Warnings& warnings)
+{
+  const auto& loading = std::get<scene::Loading>(scene.motion);
+  const int axis = axis_of(loading.piston);
+  std::vector<double> layers = layers_of(scene, specimen, axis, share);
+  if (upper_of(loading.piston)) std::ranges::reverse(layers);
+  const double travel = loading.strain * specimen.size()[axis];
+  double gap = 0, unmet = 0;
+  for (const double layer : layers) {
+    if (layer == 0) gap += layout.location_size[axis];
+    if (gap >= travel) unmet += layer;
+  }
+  if (unmet > 0)
+    warnings.push_back(fmt::format(
+        "the piston, which travels {:.4g} mm, never meets {:.0f} of {} particles: there are {:.4g} "
+        "mm of empty layers on the way to the last of them. Crop the specimen, or raise "
+        "loading.strain.",
+        1e3 * travel, unmet, specimen.particles(), 1e3 * gap));
+}
+
+template <int Dim>
+void look_at_speed(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+                   const Layout<Dim>& layout, Warnings& warnings)
+{
+  const auto* loading = std::get_if<scene::Loading>(&scene.motion);
+  const double speed = layout.largest_speed, wave = layout.wave_speed;
+  if (speed >= wave) {
+    warnings.push_back(fmt::format(
+        "the largest speed, {:.4g} m/s, is not below that of the fastest wave, {:.4g} m/s: "
+        "everything it meets is a shock, for which no law here is made. Lower it.",
+        speed, wave));
+  } else if (loading && loading->speed > quasi_static_speed * wave) {
+    warnings.push_back(fmt::format(
+        "the piston's speed, {:.4g} m/s, is above the quasi-static range, {:.2g} m/s ({} of the "
+        "fastest wave): stress_piston and stress_edge will differ. Lower loading.speed.",
+        loading->speed, quasi_static_speed * wave, quasi_static_speed));
+  } else if (loading && loading->speed > sudden_strain * wave &&
+             layout.piston.ramp_time < specimen.size()[axis_of(loading->piston)] / wave) {
+    warnings.push_back(fmt::format(
+        "the piston is at its speed before the fastest wave has crossed the specimen, which takes "
+        "{:.2g} s: a wave of {:.2g} % strain runs to and fro. Leave loading.ramp_time out.",
+        specimen.size()[axis_of(loading->piston)] / wave, 100 * loading->speed / wave));
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::string> warnings_of(const scene::Scene& scene,
+                                     const micrograph::Specimen<Dim>& specimen,
+                                     const Layout<Dim>& layout, const micrograph::Share& share)
+{
+  Warnings warnings;
+  look_at_walls(scene, specimen, share, warnings);
+  look_at_speed(scene, specimen, layout, warnings);
+  if (std::holds_alternative<scene::Loading>(scene.motion))
+    look_at_reach(scene, specimen, layout, share, warnings);
+  if (const auto limit = stable_cfl_of(scene.numerics); limit && layout.cfl > *limit)
+    warnings.push_back(fmt::format(
+        "numerics.cfl is {:.3g}, beyond {:.3g}, the limit of {} with {} and {}: noise will grow. "
+        "Leave it out: the default keeps a margin.",
+        layout.cfl, *limit, scene.numerics.shape_function->keyword, scene.numerics.scheme->keyword,
+        scene.numerics.update_order->keyword));
+  if (const double steps = expected_steps(scene, layout); steps > many_steps)
+    warnings.push_back(
+        fmt::format("the run takes {:.2g} steps or more, over which rounding adds up. Raise the "
+                    "speed within the quasi-static range, or take fewer grid.cells.",
+                    steps));
+  return warnings;
+}
+
+template std::vector<std::string> warnings_of(const scene::Scene&, const micrograph::Specimen<2>&,
+                                              const Layout<2>&, const micrograph::Share&);
+template std::vector<std::string> warnings_of(const scene::Scene&, const micrograph::Specimen<3>&,
+                                              const Layout<3>&, const micrograph::Share&);
+
+}  // namespace mpm

@@ -1,0 +1,128 @@
+"""What a specialist would warn of, before a run and in its summary; and no warning without cause."""
+import unittest
+
+from program import ProgramTest, mpm_par, summary
+
+SCENE = """
+material: {law: isotropic, youngs_modulus: 10 GPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
+specimen:
+  size: [1 mm, 1 mm]
+  shapes:
+SHAPES
+grid: {cells: [20, 20]}
+loading: {piston: right, speed: 1 m/s, strain: 30 %}
+steps: 2
+output: {snapshots: 0}
+"""
+WHOLE = ["{lower: [0 mm, 0 mm], upper: [1 mm, 1 mm]}"]
+# Walls across the specimen, 1.5 cells of 50 um thick.
+THIN = [f"{{lower: [{x} mm, 0 mm], upper: [{x + 0.075} mm, 1 mm]}}" for x in (0.2, 0.4, 0.6)]
+# Walls two cells thick from end to end.
+TWO_CELLS = [f"{{lower: [0 mm, {y} mm], upper: [1 mm, {y + 0.1} mm]}}" for y in (0.2, 0.5, 0.7)]
+APART = ["{lower: [0 mm, 0 mm], upper: [0.3 mm, 1 mm]}",
+         "{lower: [0.7 mm, 0 mm], upper: [1 mm, 1 mm]}"]
+
+
+def gray_bmp(rows):
+    """An 8-bit gray BMP; rows from the top, 0 or 255 each."""
+    height, width = len(rows), len(rows[0])
+    line = (width + 3) // 4 * 4
+    palette = b"".join(bytes([g, g, g, 0]) for g in range(256))
+    offset = 14 + 40 + len(palette)
+    header = b"BM" + (offset + line * height).to_bytes(4, "little") + bytes(4) + \
+        offset.to_bytes(4, "little")
+    sizes = (40).to_bytes(4, "little") + width.to_bytes(4, "little") + \
+        height.to_bytes(4, "little") + (1).to_bytes(2, "little") + (8).to_bytes(2, "little") + \
+        bytes(24)
+    pixels = b"".join(bytes(row) + bytes(line - width) for row in reversed(rows))
+    return header + sizes + palette + pixels
+
+
+class Warnings(ProgramTest):
+    def warnings(self, boxes, *settings):
+        """Those of --check, which are those of the run's summary, on one rank and on two."""
+        shapes = "\n".join(f"    - box: {box}" for box in boxes)
+        file = self.folder / "scene.yaml"
+        file.write_text(SCENE.replace("SHAPES", shapes))
+        return self.warnings_of(file, *settings)
+
+    def warnings_of(self, file, *settings):
+        options = [word for setting in settings for word in ("--set", setting)]
+        check = mpm_par("--check", file, *options)
+        self.assertEqual(check.returncode, 0, check.stderr)
+        said = [line.split("warning", 1)[1].strip() for line in check.stdout.splitlines()
+                if line.startswith("  warning")]
+        folder = self.folder / "results"
+        run = mpm_par(file, "--output", folder, *options, ranks=2)
+        self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+        self.assertEqual(summary(folder)["warnings"], said)
+        for warning in said:
+            self.assertIn(warning, run.stdout)
+        return said
+
+    def assert_only(self, warnings, *parts):
+        self.assertEqual(len(warnings), 1, warnings)
+        for part in parts:
+            self.assertIn(part, warnings[0])
+
+    def test_a_sound_scene_has_none(self):
+        self.assertEqual(self.warnings(WHOLE), [])
+        self.assertEqual(self.warnings(TWO_CELLS), [])
+
+    def test_thin_walls(self):
+        self.assert_only(self.warnings(THIN, "loading.piston=top"),
+                         "100 % of the wall is thinner than two cells", "grid.cells")
+        # As thin on a grid that is finer: three cells.
+        self.assertEqual(self.warnings(THIN, "loading.piston=top", "grid.cells=[40, 40]"), [])
+
+    def test_speeds(self):
+        # Fastest wave: sqrt(10e9 * 0.7 / (1.3 * 0.4) / 1000) = 3669 m/s.
+        self.assertEqual(self.warnings(WHOLE, "loading.speed=36 m/s"), [])
+        self.assert_only(self.warnings(WHOLE, "loading.speed=37 m/s"),
+                         "above the quasi-static range, 37 m/s", "loading.speed")
+        self.assertEqual(self.warnings(WHOLE, "loading.ramp_time=0.3 us", "loading.speed=5 m/s"),
+                         [])
+        self.assert_only(
+            self.warnings(WHOLE, "loading.ramp_time=0.2 us", "loading.speed=5 m/s"),
+            "before the fastest wave has crossed", "loading.ramp_time")
+        self.assert_only(self.warnings(WHOLE, "loading.speed=4 km/s"),
+                         "not below that of the fastest wave, 3669 m/s")
+
+    def test_a_long_run(self):
+        self.assert_only(self.check_only("loading.speed=1e-4 m/s", "steps=200000000"),
+                         "1.8e+08 steps", "grid.cells")
+
+    def check_only(self, *settings):
+        shapes = "\n".join(f"    - box: {box}" for box in WHOLE)
+        file = self.folder / "scene.yaml"
+        file.write_text(SCENE.replace("SHAPES", shapes))
+        options = [word for setting in settings for word in ("--set", setting)]
+        check = mpm_par("--check", file, *options)
+        self.assertEqual(check.returncode, 0, check.stderr)
+        return [line for line in check.stdout.splitlines() if line.startswith("  warning")]
+
+    def test_particles_that_the_piston_never_meets(self):
+        # 0.4 mm of empty layers before the second box of 6 x 20 cells of 4 particles.
+        self.assert_only(self.warnings(APART), "never meets 480 of 960 particles", "loading.strain")
+        self.assertEqual(self.warnings(APART, "loading.strain=45 %"), [])
+        self.assert_only(self.warnings(APART, "loading.piston=left"), "never meets 480 of 960")
+        self.assertEqual(self.warnings(APART, "loading.piston=top"), [])
+
+    def test_unconnected_pieces(self):
+        rows = [[255 if 10 <= i < 22 else 0 for i in range(40)] for _ in range(40)]
+        for j in range(16, 22):
+            for i in range(30, 36):
+                rows[j][i] = 255
+        (self.folder / "picture.bmp").write_bytes(gray_bmp(rows))
+        file = self.folder / "picture.yaml"
+        file.write_text("specimen: {micrograph: picture.bmp, pixel_size: 25 um}\n"
+                        "grid: {cells: [20, 20]}\nsteps: 2\noutput: {snapshots: 0}\n"
+                        "loading: {piston: right, speed: 1 m/s}\n")
+        # 36 of 12 * 40 + 36 locations.
+        self.assert_only(self.warnings_of(file), "7 % of the wall (36 of 516 particles)",
+                         "specimen.remove_unconnected: true")
+        self.assertEqual(self.warnings_of(file, "specimen.remove_unconnected=true"), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
