@@ -180,8 +180,7 @@ class Hencky final : public Law<2> {
   /// Plastic flow keeps the volume: J = sqrt(det b_e).
   Lanes volume_ratio(const double* s) const override
   {
-    const Lanes in_plane =
-        stdx::sqrt(at(s, be_xx) * at(s, be_yy) - at(s, be_xy) * at(s, be_xy));
+    const Lanes in_plane = stdx::sqrt(at(s, be_xx) * at(s, be_yy) - at(s, be_xy) * at(s, be_xy));
     if constexpr (carries_zz)
       return in_plane * lane_exp(at(s, log_zz));
     else if constexpr (plane_strain)

@@ -62,12 +62,14 @@ struct Block {
     const MoveBounds<Dim> bounds{-far, far};
     switch (pass) {
       case Pass::musl_velocity:
-        return transfer->musl_velocity(body, grid.topology, grid.fields);
+        transfer->musl_velocity(body, grid.topology, grid.fields);
+        return;
       case Pass::musl_stress:
         transfer->musl_stress(body, grid.topology, grid.fields, dt, bounds);
         return;
       case Pass::usf_stress:
-        return transfer->usf_stress(body, grid.topology, grid.fields, dt);
+        transfer->usf_stress(body, grid.topology, grid.fields, dt);
+        return;
       case Pass::usf_velocity:
         transfer->usf_velocity(body, grid.topology, grid.fields, dt, bounds);
         return;

@@ -1,4 +1,4 @@
-"""What a specialist would warn of, before a run and in its summary; and no warning without cause."""
+"""What a specialist would warn of, before a run and in its summary; no warning without cause."""
 import unittest
 
 from program import ProgramTest, mpm_par, summary

@@ -7,7 +7,8 @@
 
 namespace mpm {
 
-/// Of J. A solid specimen at the largest strain that a scene may ask for, 99 %, is at the lower one.
+/// Of J. A solid specimen at the largest strain that a scene may ask for, 99 %, is at the lower
+/// one.
 inline constexpr double least_volume_ratio = 0.01, largest_volume_ratio = 100;
 
 struct BeyondBounds {

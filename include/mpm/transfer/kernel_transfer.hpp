@@ -71,7 +71,8 @@ class KernelTransfer final : public Transfer<Dim> {
   PassOutcome<Dim> musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                  NodeFields<Dim>& fields) const override
   {
-    return pass<PassContent{.velocity = true, .scatter = {.remap = true}}>(part, grid, fields, 0, nullptr);
+    return pass<PassContent{.velocity = true, .scatter = {.remap = true}}>(part, grid, fields, 0,
+                                                                           nullptr);
   }
 
   PassOutcome<Dim> musl_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,

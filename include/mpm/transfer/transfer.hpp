@@ -91,7 +91,7 @@ class Transfer {
   // MUSL, two passes.
   /// G2P of the velocity at the old place, and its momentum back to the same nodes.
   virtual PassOutcome<Dim> musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
-                             NodeFields<Dim>& fields) const = 0;
+                                         NodeFields<Dim>& fields) const = 0;
   /// Velocity gradient at the old place, stress, move; P2G of mass, momentum, force at the new.
   virtual PassOutcome<Dim> musl_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                        NodeFields<Dim>& fields, double dt,
@@ -99,7 +99,7 @@ class Transfer {
   // USF, two passes.
   /// Velocity gradient, stress, P2G of the force.
   virtual PassOutcome<Dim> usf_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
-                          NodeFields<Dim>& fields, double dt) const = 0;
+                                      NodeFields<Dim>& fields, double dt) const = 0;
   /// G2P of the velocity, move; P2G of mass and momentum at the new place.
   virtual PassOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                         NodeFields<Dim>& fields, double dt,
