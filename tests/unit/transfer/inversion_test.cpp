@@ -54,7 +54,9 @@ TEST(Inversion, FirstParticleIsNamedAndPaddingIsNot)
   EXPECT_EQ(report(1)->velocity, Vec<2>(0, -8));
   EXPECT_EQ(report(1)->ratio, -0.5);
   EXPECT_EQ(report(1)->fault, Fault::inverted);
-  if (lane_count > 2) EXPECT_FALSE(report(2).has_value());
+  if (lane_count > 2) {
+    EXPECT_FALSE(report(2).has_value());
+  }
 }
 
 }  // namespace
