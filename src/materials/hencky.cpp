@@ -1,6 +1,7 @@
 #include <mpm/core/lanes.hpp>
 #include <mpm/materials/hencky.hpp>
 #include <mpm/materials/logarithmic_wave.hpp>
+#include <mpm/materials/plane_left_cauchy_green.hpp>
 #include <mpm/materials/plane_stress_return.hpp>
 #include <mpm/materials/von_mises_flow.hpp>
 
@@ -126,15 +127,9 @@ class Hencky final : public Law<2> {
   {
     for (int k = 0; k < blocks; ++k) {
       double* s = state + k * columns * lane_count;
-      const double* l = gradient + k * 4 * lane_count;
-      // f = I + dt L, b_e = f b_e f^T
-      const Lanes fxx = 1.0 + dt * load(l), fyx = dt * load(l + lane_count),
-                  fxy = dt * load(l + 2 * lane_count), fyy = 1.0 + dt * load(l + 3 * lane_count);
-      const Lanes bxx = at(s, be_xx), byy = at(s, be_yy), bxy = at(s, be_xy);
-      const Lanes axx = fxx * bxx + fxy * bxy, axy = fxx * bxy + fxy * byy,
-                  ayx = fyx * bxx + fyy * bxy, ayy = fyx * bxy + fyy * byy;
-      const Lanes xx = axx * fxx + axy * fxy, xy = axx * fyx + axy * fyy,
-                  yy = ayx * fyx + ayy * fyy;
+      // b_e = f b_e f^T
+      const auto [xx, yy, xy] = pushed_forward({at(s, be_xx), at(s, be_yy), at(s, be_xy)},
+                                               gradient + k * 4 * lane_count, dt);
       store(xx, s + be_xx * lane_count);
       store(yy, s + be_yy * lane_count);
       store(xy, s + be_xy * lane_count);

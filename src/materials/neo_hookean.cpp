@@ -1,3 +1,4 @@
+#include <mpm/materials/plane_left_cauchy_green.hpp>
 #include <mpm/materials/space_tensor.hpp>
 
 #include <cmath>
@@ -38,16 +39,11 @@ class NeoHookeanPlane final : public Law<2> {
   {
     for (int k = 0; k < blocks; ++k) {
       double* s = state + k * columns * lane_count;
-      const double* l = gradient + k * 4 * lane_count;
-      // f = I + dt L, b = f b f^T
-      const Lanes fxx = 1.0 + dt * load(l), fyx = dt * load(l + lane_count),
-                  fxy = dt * load(l + 2 * lane_count), fyy = 1.0 + dt * load(l + 3 * lane_count);
-      const Lanes bxx = at(s, xx), byy = at(s, yy), bxy = at(s, xy);
-      const Lanes axx = fxx * bxx + fxy * bxy, axy = fxx * bxy + fxy * byy,
-                  ayx = fyx * bxx + fyy * bxy, ayy = fyx * bxy + fyy * byy;
-      store(axx * fxx + axy * fxy, s + xx * lane_count);
-      store(ayx * fyx + ayy * fyy, s + yy * lane_count);
-      store(axx * fyx + axy * fyy, s + xy * lane_count);
+      const InPlane b =
+          pushed_forward({at(s, xx), at(s, yy), at(s, xy)}, gradient + k * 4 * lane_count, dt);
+      store(b.xx, s + xx * lane_count);
+      store(b.yy, s + yy * lane_count);
+      store(b.xy, s + xy * lane_count);
       put_force_stress(s, force_stress + k * 3 * lane_count);
     }
   }
@@ -75,10 +71,7 @@ class NeoHookeanPlane final : public Law<2> {
            (0.5 * mu_ * (trace - 3.0) - mu_ * z.log_j + 0.5 * lambda_ * z.log_j * z.log_j);
   }
 
-  Lanes volume_ratio(const double* s) const override
-  {
-    return lane_exp(Thickness(*this, s).log_j);
-  }
+  Lanes volume_ratio(const double* s) const override { return lane_exp(Thickness(*this, s).log_j); }
 
   double wave_speed() const override
   {
@@ -185,10 +178,7 @@ class NeoHookeanSolid final : public Law<3> {
     return load(s) * (0.5 * mu_ * (b_of(s).trace() - 3.0) - mu_ * log + 0.5 * lambda_ * log * log);
   }
 
-  Lanes volume_ratio(const double* s) const override
-  {
-    return stdx::sqrt(b_of(s).determinant());
-  }
+  Lanes volume_ratio(const double* s) const override { return stdx::sqrt(b_of(s).determinant()); }
 
   double wave_speed() const override { return std::sqrt((lambda_ + 2 * mu_) / density_); }
   /// Along the largest stretch: rho_0 c^2 = lambda (1 - ln J) + mu (1 + b_max), b_max bounded by
