@@ -86,6 +86,38 @@ void NodeFields<Dim>::update_velocity(Runs runs, double dt)
 }
 
 template <int Dim>
+void NodeFields<Dim>::begin_refinement(Runs runs)
+{
+  for_each_node(runs, [&](LocalIndex node) {
+    double* u = updated_of(node);
+    for (int d = 0; d < Dim; ++d) u[Dim + d] = u[d];
+  });
+}
+
+template <int Dim>
+void NodeFields<Dim>::refine(Runs runs)
+{
+  for_each_node(runs, [&](LocalIndex node) {
+    const double inverse_mass = is_active(node) ? 1.0 / mass_of(node) : 0.0;
+    const double* momentum = &remapped_momentum[std::size_t(node) * remap_width];
+    double *u = updated_of(node), *before = gradient_velocity_of(node);
+    for (int d = 0; d < Dim; ++d) {
+      before[d] = u[d];
+      u[d] += u[Dim + d] - momentum[d] * inverse_mass;
+    }
+  });
+}
+
+template <int Dim>
+void NodeFields<Dim>::end_refinement(Runs runs)
+{
+  for_each_node(runs, [&](LocalIndex node) {
+    double *u = updated_of(node), *before = gradient_velocity_of(node);
+    for (int d = 0; d < Dim; ++d) u[Dim + d] = u[d] - before[d];
+  });
+}
+
+template <int Dim>
 void NodeFields<Dim>::set_gradient_velocity(LocalIndex node, int component, double value)
 {
   double* v = gradient_velocity_of(node);

@@ -54,12 +54,19 @@ void check_stability(const Checked& checked)
   if (!checked.sound("numerics.shape_function")) return;
   const std::string reason =
       fmt::format("with {} shape functions no time step is stable at free edges", shape.keyword);
-  if (order.stable_cfl && !(shape.stable_cfl.*order.stable_cfl)) {
+  const auto refuse_order = [&](const std::string& why) {
     const auto bears = std::ranges::find_if(
         list_of<UpdateOrderRow>(), [](const UpdateOrderRow& other) { return !other.stable_cfl; });
-    checked.refuse("numerics.update_order", reason,
+    checked.refuse("numerics.update_order", why,
                    fmt::format("Use update_order: {}", bears->keyword));
-  }
+  };
+  if (order.stable_cfl && !(shape.stable_cfl.*order.stable_cfl))
+    refuse_order(reason);
+  else if (order.stable_cfl && numerics.scheme->refines)
+    refuse_order(
+        fmt::format("with {} the stable step falls with every refinement of the velocity "
+                    "that the stress sees",
+                    numerics.scheme->keyword));
   const auto family = numerics.scheme->stable_cfl;
   if (shape.stable_cfl.*family) return;
   std::vector<std::string> shapes;

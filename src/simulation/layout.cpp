@@ -32,6 +32,30 @@ double margin_of(const scene::Scene& scene, int axis, bool upper, double size)
   return open && margin == 0 ? free_margin * size : margin;
 }
 
+/// Whether a wall at rest stands at a side of the specimen, or behind its load cell.
+bool has_wall(const scene::Scene& scene, int axis, bool upper)
+{
+  if (const auto* free = std::get_if<scene::FreeMotion>(&scene.motion))
+    for (const scene::MovingSide& moving : free->moving_sides)
+      if (axis_of(moving.side) == axis && upper_of(moving.side) == upper) return false;
+  if (const auto side = side_of(scene, axis, upper)) return (*side)->is_wall();
+  return upper_of(loading_of(scene)->piston) != upper;  // the edge is fixed
+}
+
+/// `first` and `last`: nodes of the specimen's sides.
+template <int Dim>
+void stand_walls(const scene::Scene& scene, int axis, LocalIndex first, LocalIndex last,
+                 Layout<Dim>& layout)
+{
+  auto& [below, above] = layout.geometry.walls[std::size_t(axis)];
+  if (has_wall(scene, axis, false)) below = first;
+  if (has_wall(scene, axis, true)) above = last;
+  const auto* loading = loading_of(scene);
+  if (!loading || !loading->load_cell || axis_of(loading->piston) != axis) return;
+  if (below) *below -= loading->load_cell->cells;
+  if (above) *above += loading->load_cell->cells;
+}
+
 template <int Dim>
 void lay_grid(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
               Layout<Dim>& layout)
@@ -65,6 +89,7 @@ void lay_grid(const scene::Scene& scene, const micrograph::Specimen<Dim>& specim
     layout.geometry.origin[d] = -before[d] * layout.geometry.spacing[d];
     layout.geometry.nodes[d] =
         before[d] + specimen.cells()[d] + after[d] + (layout.geometry.periodic[d] ? 0 : 1);
+    stand_walls(scene, d, before[d], before[d] + specimen.cells()[d], layout);
   }
 }
 

@@ -20,6 +20,11 @@ double default_cfl(const scene::Numerics& numerics)
   return numerics.shape_function->cfl_share * *stable;
 }
 
+int refinements_of(const scene::Numerics& numerics)
+{
+  return numerics.scheme->refines ? numerics.fmpm_order - 1 : 0;
+}
+
 template <int Dim>
 TimeStep time_step_of(const Layout<Dim>& layout)
 {

@@ -104,7 +104,8 @@ std::string plan_text(const Preparation<Dim>& preparation)
   const auto transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
   const UpdateOrderRow& order = *scene.numerics.update_order;
   const double per_particle = bytes_per_particle(scene, *transfer);
-  const double per_node = NodeFields<Dim>::bytes_per_node({order.remaps, !scene.loads.empty()});
+  const double per_node = NodeFields<Dim>::bytes_per_node(
+      {order.remaps || refinements_of(scene.numerics) > 0, !scene.loads.empty()});
   const double nodes = layout.geometry.nodes.template cast<double>().prod();
 
   std::string text;

@@ -15,6 +15,29 @@ void Step<Dim>::update_velocity(double dt)
       condition->constrain_updated(grid(), field, time(), dt);
     slots.loads.book(grid(), field, dt);
   }
+  if (refinements > 0) refine_velocity(dt);
+}
+
+/// What a condition takes from a residual is an impulse of its wall: the nodes keep its velocity,
+/// and their residual is zero.
+template <int Dim>
+void Step<Dim>::refine_velocity(double dt)
+{
+  using Fields = NodeFields<Dim>;
+  for (Fields& field : fields) field.begin_refinement(grid().runs());
+  for (int k = 0; k < refinements; ++k) {
+    for (Fields& field : fields) field.reset_remap(grid().runs());
+    exchange.pass_and_sum(bodies, columns({&Fields::remap_column}), moment,
+                          [&](const BodyPart<Dim>& part) {
+                            return transfer.refine_velocity(part, grid(), fields_of(part));
+                          });
+    for (Fields& field : fields) {
+      field.refine(grid().runs());
+      for (const auto& condition : slots.conditions)
+        condition->constrain_updated(grid(), field, time(), dt);
+      field.end_refinement(grid().runs());
+    }
+  }
 }
 
 template <int Dim>

@@ -19,6 +19,7 @@ std::span<const UpdateOrderRow> list_of<UpdateOrderRow>()
 std::optional<double> stable_cfl(const ShapeRow& shape, const SchemeRow& scheme,
                                  const UpdateOrderRow& order)
 {
+  if (order.stable_cfl && scheme.refines) return std::nullopt;
   return shape.stable_cfl.*(order.stable_cfl ? order.stable_cfl : scheme.stable_cfl);
 }
 

@@ -172,7 +172,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, SavedRun,
                          ::testing::Values(Method{"gimp", "flip", "musl"},
                                            Method{"quadratic", "apic", "musl"},
                                            Method{"gimp", "flip", "usf"},
-                                           Method{"gimp", "flip", "usl"}),
+                                           Method{"gimp", "flip", "usl"},
+                                           Method{"cubic", "fmpm", "musl"}),
                          [](const auto& info) { return name_of(info.param); });
 
 TEST(SavedLoadBalance, MovesTheBordersAtTheSameStepsToTheSamePlaces)

@@ -13,8 +13,8 @@ namespace {
 using namespace testing_blocks;
 using ::testing::HasSubstr;
 
-const OneOf<ShapeRow> linear = "linear", gimp = "gimp", quadratic = "quadratic";
-const OneOf<SchemeRow> flip = "flip", pic = "pic", apic = "apic", tpic = "tpic";
+const OneOf<ShapeRow> linear = "linear", gimp = "gimp", quadratic = "quadratic", cubic = "cubic";
+const OneOf<SchemeRow> flip = "flip", pic = "pic", apic = "apic", tpic = "tpic", fmpm = "fmpm";
 
 /// Three in a row and two rows for six ranks, so that corners are crossed.
 IndexVec<2> two_rows()
@@ -115,7 +115,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, FlyingBlock,
                                            Method{linear, pic, "musl"}, Method{gimp, tpic, "musl"},
                                            Method{quadratic, tpic, "musl"},
                                            Method{quadratic, apic, "usf"}, Method{gimp, pic, "usf"},
-                                           Method{gimp, flip, "usl"}),
+                                           Method{gimp, flip, "usl"}, Method{cubic, fmpm, "musl"},
+                                           Method{linear, fmpm, "usf"}),
                          [](const auto& info) { return name_of(info.param); });
 
 /// A piston from the right, three walls, and a second block that flies into the first.
@@ -192,7 +193,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, PressedBlocks,
                                            Method{quadratic, tpic, "musl"},
                                            Method{gimp, flip, "usf"},
                                            Method{quadratic, flip, "usf"},
-                                           Method{gimp, flip, "usl"}),
+                                           Method{gimp, flip, "usl"}, Method{gimp, fmpm, "musl"},
+                                           Method{cubic, flip, "musl"}),
                          [](const auto& info) { return name_of(info.param); });
 
 /// Steps until the run stops; its words. Collective.

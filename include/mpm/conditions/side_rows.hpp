@@ -29,6 +29,8 @@ struct SideRow {
 
   /// Whether particles may go beyond it.
   bool open() const { return !periodic && !in_plane && !in_space; }
+  /// Whether a wall at rest stands there.
+  bool is_wall() const { return !periodic && !open(); }
 };
 
 template <>

@@ -4,6 +4,7 @@
 #include <mpm/core/index_box.hpp>
 
 #include <array>
+#include <optional>
 
 namespace mpm {
 
@@ -15,6 +16,9 @@ struct GridGeometry {
   Vec<Dim> spacing;                     ///< m, each axis its own
   IndexVec<Dim> nodes;                  ///< per axis
   std::array<bool, Dim> periodic = {};  ///< axes on which the grid begins again where it ends
+  /// Nodes on which a wall at rest stands, at the lower and the upper end of an axis: what moves
+  /// lies between them.
+  std::array<std::array<std::optional<LocalIndex>, 2>, Dim> walls = {};
 
   double smallest_spacing() const { return spacing.minCoeff(); }
   double node_position(int axis, LocalIndex index) const

@@ -35,7 +35,7 @@ class NodeFields {
 
   /// What an update order needs beside mass, momentum, force and velocities.
   struct Needs {
-    bool remap = false;       ///< re-mapped momentum
+    bool remap = false;       ///< re-mapped momentum, also in refinements
     bool load_force = false;  ///< force from outside, for its work
   };
 
@@ -55,6 +55,14 @@ class NodeFields {
   void add_load_force(Runs runs);
   /// v = mv / m, dv = dt f / m: `updated` becomes {v + dv, dv}.
   void update_velocity(Runs runs, double dt);
+  /// The updated velocity v of the lumped mass matrix is the first approximation v_1 of the one of
+  /// the full matrix, and the first residual: r_1 = v_1, which takes the place of the increment.
+  void begin_refinement(Runs runs);
+  /// With the re-mapped momentum m S+ S r_k: v_k+1 = v_k + r_k+1, r_k+1 = r_k - S+ S r_k.
+  /// Conditions may then change the updated velocity; `end_refinement` takes r_k+1 from what is
+  /// left. `gradient_velocity` holds v_k in between.
+  void refine(Runs runs);
+  void end_refinement(Runs runs);
   /// `gradient_velocity` becomes momentum / m (USF), re-mapped momentum / m (MUSL), or the updated
   /// velocity (USL).
   void gradient_from_momentum(Runs runs);

@@ -114,6 +114,7 @@ struct Numerics {
   double thickness = 1;         ///< m, out of the plane
   OneOf<ShapeRow> shape_function = "gimp";
   OneOf<SchemeRow> scheme = "flip";
+  int fmpm_order = 4;  ///< of a scheme that refines the grid's velocity
   OneOf<UpdateOrderRow> update_order = "musl";
   std::optional<double> cfl;  ///< default depends on shape function and update order
   DecompositionKind decomposition = DecompositionKind::automatic;

@@ -11,15 +11,19 @@ namespace mpm {
 struct Gimp {
   /// Thin walls that collapse lose the energy balance below the stable step: ponderosa pine closes
   /// to 0.4 % at 0.7 of it and to 2 % at 0.9 of it.
-  static constexpr ShapeRow row{
-      .keyword = "gimp",
-      .help = "GIMP (uniform particle domains)",
-      .words = "uniform GIMP",
-      .stable_cfl = {.increments = 1.75, .velocities = 1.48, .affine = 0.9, .stress_last = 0.59},
-      .cfl_share = 0.7,
-      .step_cost = 50};
+  static constexpr ShapeRow row{.keyword = "gimp",
+                                .help = "GIMP (uniform particle domains)",
+                                .words = "uniform GIMP",
+                                .stable_cfl = {.increments = 1.75,
+                                               .velocities = 1.48,
+                                               .affine = 0.9,
+                                               .refined = 1.02,
+                                               .stress_last = 0.59},
+                                .cfl_share = 0.7,
+                                .step_cost = 50};
   static Gimp make(int particles_per_cell) { return {0.5 / particles_per_cell}; }
 
+  static constexpr bool ends_at_walls = false;
   static constexpr int support = 3;
   double half_size;  ///< of a particle domain, in cells: 1 / (2 x particles per cell and direction)
 

@@ -8,20 +8,24 @@ namespace mpm {
 ///
 /// Every shape function has the same members. `row`: what else the program knows of it. `make`:
 /// from the particles per cell and direction. `support` is the number of nodes per axis.
+/// `ends_at_walls`: whether it is cut off at walls at rest (transfer/stencil.hpp), beyond which it
+/// would reach.
 /// `base_shift()`: the first node of a particle at x is floor(x/h - base_shift). `weights`: r is
 /// x/h minus that node; fills w and, times 1/h, the gradients g.
 struct Linear {
   /// No step is stable at free edges where the gradient of a velocity is taken that the force has
   /// just changed: where hardly any mass reaches a node, this gradient is as large as ever. Below
   /// the limit of the others the noise of particles that cross cells grows.
-  static constexpr ShapeRow row{.keyword = "linear",
-                                .help = "hat functions",
-                                .words = "linear",
-                                .stable_cfl = {.increments = 1.42, .velocities = 1.25},
-                                .cfl_share = 0.42,
-                                .step_cost = 35};
+  static constexpr ShapeRow row{
+      .keyword = "linear",
+      .help = "hat functions",
+      .words = "linear",
+      .stable_cfl = {.increments = 1.42, .velocities = 1.25, .refined = 0.9},
+      .cfl_share = 0.42,
+      .step_cost = 35};
   static Linear make(int) { return {}; }
 
+  static constexpr bool ends_at_walls = false;
   static constexpr int support = 2;
   static constexpr double base_shift() { return 0.0; }
 

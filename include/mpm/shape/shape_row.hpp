@@ -11,6 +11,7 @@ struct StableCfl {
   std::optional<double> increments{};   ///< particles take increments from the grid: FLIP
   std::optional<double> velocities{};   ///< they take its velocity: PIC
   std::optional<double> affine{};       ///< and an affine field; what crushed wood bears
+  std::optional<double> refined{};      ///< the velocity of a better mass matrix, up to FMPM(8)
   std::optional<double> stress_last{};  ///< gradient of the velocity that the force changed: USL
 };
 

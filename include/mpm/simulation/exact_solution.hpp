@@ -39,7 +39,7 @@ class ExactSolution final : public Observer<Dim> {
     std::string what, unit;
     std::vector<const Formula*> exact;    ///< per component; nullptr: not compared
     /// Of each line: root mean square and largest error, root mean square of the exact solution.
-    std::vector<double> error, largest_error, size;
+    std::vector<double> error{}, largest_error{}, size{};
     double whole_size() const { return std::ranges::max(size); }
   };
   /// Calls visit(comparison, whether it is its first component, mass, value, exact value) for each

@@ -18,13 +18,14 @@ struct Step {
   std::vector<Body<Dim>>& bodies;
   std::vector<NodeFields<Dim>>& fields;
   Slots<Dim>& slots;
+  int refinements;  ///< of the updated velocity; 0 unless the scheme refines
   Moment moment;
 
   const GridTopology<Dim>& grid() const { return exchange.topology(); }
   NodeFields<Dim>& fields_of(const BodyPart<Dim>& part) const { return fields[part.body.field]; }
   double time() const { return moment.time; }
 
-  /// v_i = ((mv)_i + dt f_i) / m_i with the loads' forces; then contact and conditions.
+  /// v_i = ((mv)_i + dt f_i) / m_i with the loads' forces; contact and conditions; refinements.
   void update_velocity(double dt);
   /// Velocities whose gradient is taken, at time() + dt: contact and conditions.
   void constrain_gradient(double dt);
@@ -42,6 +43,9 @@ struct Step {
     slots.loads.scatter(part, transfer, grid(), fields_of(part), time() + dt);
     return moved;
   }
+
+ private:
+  void refine_velocity(double dt);
 };
 
 }  // namespace mpm

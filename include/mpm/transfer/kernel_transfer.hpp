@@ -8,11 +8,13 @@
 #include <mpm/transfer/transfer.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace mpm {
 
 /// What a pass does, in this order.
 struct PassContent {
+  bool refine = false;    ///< G2P of the residual velocity, and nothing else
   bool gradient = false;  ///< velocity gradient at the old place, stress update
   bool velocity = false;  ///< G2P of the velocity
   bool move = false;
@@ -66,6 +68,16 @@ class KernelTransfer final : public Transfer<Dim> {
       load_all(part.body.particles.motion().block(b), Columns::position, x);
       scatter_force(Stencil<Dim, Shape>(x, frame, shape_), grid, f, fields.load_force.data());
     }
+  }
+
+  PassOutcome<Dim> refine_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                   NodeFields<Dim>& fields) const override
+  {
+    if constexpr (Scheme::row.refines)
+      return pass<PassContent{.refine = true, .scatter = {.remap = true}}>(part, grid, fields, 0,
+                                                                           nullptr);
+    else
+      throw std::logic_error("this scheme refines no velocity");
   }
 
   PassOutcome<Dim> musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
@@ -216,6 +228,14 @@ class KernelTransfer final : public Transfer<Dim> {
     load_all(motion, Columns::position, x);
     const Lanes mass = load(motion + Columns::mass * lane_count);
 
+    if constexpr (Content.refine) {
+      const Stencil<Dim, Shape> stencil(x, frame, shape_);
+      Lanes gathered[2 * Dim], momentum[Dim];
+      gather_velocity<false>(stencil, grid, fields, stencil.weight, gathered, affine);
+      for (int d = 0; d < Dim; ++d) momentum[d] = mass * gathered[Dim + d];
+      scatter.template add<false>(stencil, mass, momentum, force_stress, affine);
+      return;
+    }
     if constexpr (Content.velocity) {
       Stencil<Dim, Shape> stencil(x, frame, shape_);
       alignas(lane_alignment) typename Stencil<Dim, Shape>::Columns affine_weight;

@@ -32,6 +32,8 @@ struct SchemeRow {
   ReactionBook book;
   bool affine;  ///< whether particles have an affine velocity field
   std::optional<double> StableCfl::*stable_cfl;
+  /// Whether the grid's velocity is refined before particles take it (NodeFields::refine).
+  bool refines = false;
 };
 
 /// The motion columns that every particle has, first of all.

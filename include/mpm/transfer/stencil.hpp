@@ -6,6 +6,8 @@
 #include <mpm/grid/grid_topology.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace mpm {
 
@@ -15,6 +17,7 @@ struct GridFrame {
   double origin[Dim], spacing[Dim], inverse_spacing[Dim];  ///< m, m, 1/m
   double gradient_scale[Dim];                              ///< 1/m
   double lower[Dim], stride[Dim];                          ///< of the local node numbering
+  double lower_wall[Dim], upper_wall[Dim];  ///< node on which a wall stands, or infinite
 
   /// Turns the sign of gradients: the minus of f = - sum V0 tau g costs nothing there.
   GridFrame with_negative_gradients() const
@@ -33,6 +36,10 @@ struct GridFrame {
       gradient_scale[d] = inverse_spacing[d];
       lower[d] = grid.local().lower[d];
       stride[d] = grid.stride(d);
+      const auto& [below, above] = grid.geometry().walls[std::size_t(d)];
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      lower_wall[d] = below ? double(*below) : -infinity;
+      upper_wall[d] = above ? double(*above) : infinity;
     }
   }
 };
@@ -55,10 +62,14 @@ struct Stencil {
     Lanes node = 0.0;
     for (int d = 0; d < Dim; ++d) {
       // Measured from node 0 of the whole grid: the same bits on any number of ranks.
-      const Lanes x = (position[d] - frame.origin[d]) * frame.inverse_spacing[d];
-      const Lanes first = stdx::floor(x - shape.base_shift());
+      Lanes x = (position[d] - frame.origin[d]) * frame.inverse_spacing[d];
+      Lanes first = stdx::floor(x - shape.base_shift());
       Lanes w[support], g[support];
       shape.weights(x - first, frame.gradient_scale[d], w, g);
+      if constexpr (Shape::ends_at_walls)
+        if (stdx::any_of(x < frame.lower_wall[d] + shape.base_shift() ||
+                         x > frame.upper_wall[d] + (2 - support + shape.base_shift()))) [[unlikely]]
+          end_at_walls(shape, frame, d, x, first, w, g);
       for (int a = 0; a < support; ++a) {
         store(w[a], weight[d][a]);
         store(g[a], gradient[d][a]);
@@ -88,6 +99,8 @@ struct Stencil {
         Lanes moment = 0.0;
         for (int a = 0; a < support; ++a)
           moment += load(weight[d][a]) * load(offset[d][a]) * load(offset[d][a]);
+        // At a wall, where it vanishes, so do all its parts.
+        moment = stdx::max(moment, Lanes(std::numeric_limits<double>::min()));
         for (int a = 0; a < support; ++a)
           store(load(weight[d][a]) * load(offset[d][a]) / moment, affine[d][a]);
       }
@@ -95,6 +108,38 @@ struct Stencil {
   }
 
  private:
+  /// Where a stencil reaches one node beyond a wall, that node moves as the straight line through
+  /// the wall's node and the next one has it, v_-1 = 2 v_0 - v_1: its share goes to these two, as
+  /// at the end of a spline of open knots, and constant and linear fields stay exact. Without that
+  /// the wall stands in for material behind it, and the last cell is too stiff by half.
+  ///
+  /// What has slipped behind a wall, by less than a cell, counts as standing at it: no weight is
+  /// negative.
+  [[gnu::noinline]] static void end_at_walls(const Shape& shape, const GridFrame<Dim>& frame, int d,
+                                             Lanes& x, Lanes& first, Lanes (&w)[support],
+                                             Lanes (&g)[support])
+  {
+    const double lower = frame.lower_wall[d], upper = frame.upper_wall[d];
+    stdx::where(x < lower && x > lower - 1.0, x) = lower;
+    // Just in front of it: the wall's node stays the last but one.
+    stdx::where(x >= upper && x < upper + 1.0, x) = std::nextafter(upper, lower);
+    first = stdx::floor(x - shape.base_shift());
+    shape.weights(x - first, frame.gradient_scale[d], w, g);
+    const auto hand_over = [](const LaneMask& where, Lanes(&values)[support], int ghost, int wall,
+                              int next) {
+      Lanes share = 0.0;
+      stdx::where(where, share) = values[ghost];
+      values[wall] += 2.0 * share;
+      values[next] -= share;
+      stdx::where(where, values[ghost]) = 0.0;
+    };
+    const LaneMask at_lower = first == lower - 1.0, at_upper = first == upper + (2.0 - support);
+    for (Lanes(*values)[support] : {&w, &g}) {
+      hand_over(at_lower, *values, 0, 1, 2);
+      hand_over(at_upper, *values, support - 1, support - 2, support - 3);
+    }
+  }
+
   Lanes local_[Dim];  ///< position from the first node, in cells
 };
 

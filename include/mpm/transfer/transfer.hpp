@@ -88,6 +88,11 @@ class Transfer {
   virtual void load_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                           NodeFields<Dim>& fields, const BlockForce& force) const = 0;
 
+  /// G2P of the residual velocity (NodeFields::refine), and its momentum back to the same nodes.
+  /// No state changes.
+  virtual PassOutcome<Dim> refine_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                           NodeFields<Dim>& fields) const = 0;
+
   // MUSL, two passes.
   /// G2P of the velocity at the old place, and its momentum back to the same nodes.
   virtual PassOutcome<Dim> musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,

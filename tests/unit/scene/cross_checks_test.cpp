@@ -135,14 +135,26 @@ TEST_F(CrossChecks, StressLastWithLinearShapeFunctions)
   EXPECT_TRUE(problems(smallest + usl + "gimp}\n").empty());
 }
 
+TEST_F(CrossChecks, RefinedVelocitiesWithStressLast)
+{
+  const std::string usl = "numerics: {update_order: usl, scheme: ";
+  EXPECT_THAT(problems(smallest + usl + "fmpm}\n"),
+              ElementsAre("a.yaml:7:26: numerics.update_order is 'usl' (with fmpm the stable step "
+                          "falls with every refinement of the velocity that the stress sees). Use "
+                          "update_order: musl."));
+  EXPECT_THAT(problems(smallest + "numerics: {scheme: fmpm, fmpm_order: 9}\n"),
+              ElementsAre("a.yaml:7:38: numerics.fmpm_order is 9 (must be at most 8)."));
+  EXPECT_EQ(problems(smallest + "numerics: {scheme: flip, fmpm_order: 3}\n").size(), 1u);
+}
+
 TEST_F(CrossChecks, AffineSchemesWithLinearShapeFunctions)
 {
   const std::string linear = "numerics: {shape_function: linear, scheme: ";
   EXPECT_THAT(
       problems(smallest + linear + "tpic}\n"),
       ElementsAre("a.yaml:7:44: numerics.scheme is 'tpic' (with linear shape functions no time "
-                  "step is stable at free edges). Use scheme: flip, or shape_function: gimp or "
-                  "quadratic."));
+                  "step is stable at free edges). Use scheme: flip, or shape_function: gimp, "
+                  "quadratic or cubic."));
   EXPECT_EQ(problems(smallest + linear + "apic}\n").size(), 1u);
   EXPECT_TRUE(problems(smallest + linear + "pic}\n").empty());
 }

@@ -67,8 +67,9 @@ TEST_F(ExactSolutionInScenes, WrongDefinitionsAreRefusedOnceAndWithPlace)
                           HasSubstr("a.yaml:9:10: definitions.later is 2 (is a name that formulas "
                                     "have already)"),
                           HasSubstr("definitions.b is 'sin(' (is no formula:")));
-  EXPECT_THAT(problems(square + "definitions: [a, b]\n"),
-              ElementsAre(HasSubstr("definitions is ['a', 'b'] (must be a map of names to formulas)")));
+  EXPECT_THAT(
+      problems(square + "definitions: [a, b]\n"),
+      ElementsAre(HasSubstr("definitions is ['a', 'b'] (must be a map of names to formulas)")));
 }
 
 TEST_F(ExactSolutionInScenes, AFormulaSaysWhichNamesThereAre)

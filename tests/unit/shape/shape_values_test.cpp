@@ -1,4 +1,5 @@
 // Values worked out by hand from the published piecewise definitions.
+#include <mpm/shape/cubic.hpp>
 #include <mpm/shape/gimp.hpp>
 #include <mpm/shape/linear.hpp>
 #include <mpm/shape/quadratic.hpp>
@@ -53,6 +54,23 @@ TEST(QuadraticShape, OnANodeIsSymmetric)
   EXPECT_EQ(s.base, 3);
   EXPECT_THAT(s.weight, Pointwise(DoubleNear(rounding), {0.125, 0.75, 0.125}));
   EXPECT_THAT(s.gradient, Pointwise(DoubleNear(rounding), {-0.5, 0.0, 0.5}));
+}
+
+TEST(CubicShape, HasTheValuesOfTheCubicSpline)
+{
+  const auto s = sample(Cubic{}, 2.5);
+  EXPECT_EQ(s.base, 1);
+  EXPECT_THAT(s.weight,
+              Pointwise(DoubleNear(rounding), {1.0 / 48, 23.0 / 48, 23.0 / 48, 1.0 / 48}));
+  EXPECT_THAT(s.gradient, Pointwise(DoubleNear(rounding), {-0.125, -0.625, 0.625, 0.125}));
+}
+
+TEST(CubicShape, OnANodeIsSymmetric)
+{
+  const auto s = sample(Cubic{}, 4.0);
+  EXPECT_EQ(s.base, 3);
+  EXPECT_THAT(s.weight, Pointwise(DoubleNear(rounding), {1.0 / 6, 2.0 / 3, 1.0 / 6, 0.0}));
+  EXPECT_THAT(s.gradient, Pointwise(DoubleNear(rounding), {-0.5, 0.0, 0.5, 0.0}));
 }
 
 TEST(GimpShape, WithDomainsOfAWholeCellIsTheQuadraticSpline)
