@@ -19,6 +19,9 @@ constexpr double quasi_static_speed = 0.01;
 /// A sudden start sends a wave of this strain through the specimen.
 constexpr double sudden_strain = 1e-3;
 constexpr double many_steps = 1e8;
+/// In cells, and the CFL up to which noise does not grow on such a way (docs/stability.md).
+constexpr double long_flight = 30;
+constexpr double quiet_cfl = 0.5;
 
 using Warnings = std::vector<std::string>;
 
@@ -114,6 +117,25 @@ void look_at_speed(const scene::Scene& scene, const micrograph::Specimen<Dim>& s
   }
 }
 
+/// Particles that take increments keep the noise that crossing cells makes.
+template <int Dim>
+void look_at_flight(const scene::Scene& scene, const Layout<Dim>& layout, Warnings& warnings)
+{
+  const scene::Numerics& numerics = scene.numerics;
+  if (!std::holds_alternative<scene::FreeMotion>(scene.motion) || layout.cfl <= quiet_cfl ||
+      numerics.scheme->stable_cfl != &StableCfl::increments || numerics.update_order->stable_cfl)
+    return;
+  const double end =
+      std::min(layout.end_time, expected_steps(scene, layout) * time_step_of(layout).first());
+  const double cells = layout.largest_speed * end / layout.geometry.smallest_spacing();
+  if (cells > long_flight)
+    warnings.push_back(fmt::format(
+        "at {:.4g} m/s something may cross {:.0f} cells in this run: each makes noise, which {} "
+        "keeps and which may grow in free flight. Take gimp or quadratic with scheme apic or tpic, "
+        "or numerics.cfl: {}.",
+        layout.largest_speed, cells, numerics.scheme->keyword, quiet_cfl));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -124,6 +146,7 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
   Warnings warnings;
   look_at_walls(scene, specimen, share, warnings);
   look_at_speed(scene, specimen, layout, warnings);
+  look_at_flight(scene, layout, warnings);
   if (std::holds_alternative<scene::Loading>(scene.motion))
     look_at_reach(scene, specimen, layout, share, warnings);
   if (const auto limit = stable_cfl_of(scene.numerics); limit && layout.cfl > *limit)

@@ -3,12 +3,12 @@
     gain, loss         largest surplus and deficit of the energy balance over the energy that passed
                        through so far (docs/theory.md), from where 1 % of the whole has passed
     ratio_low, _high   smallest and largest volume ratio J of any particle in any snapshot
-    momentum           largest momentum_error
+    momentum           largest momentum_error; of free bodies over the sum of the momenta's sizes
     through            deepest a particle lies behind a wall or the piston, cells
     gap                from the piston or the edge opposite to the nearest particle, cells
     pieces             how many more pieces than at the start: cells with particles that touch
     turned             share of the angular momentum lost or won
-    noise              largest elastic energy over the kinetic energy at the start
+    growth             of noise: largest elastic energy in the last tenth over that in the first
     stiffness          of a clamped beam from its first swing, over the exact one
 """
 import csv
@@ -43,13 +43,15 @@ class Scene:
 
     def __init__(self, folder):
         scene = yaml.safe_load((folder / "scene.yaml").read_text())
-        self.cells = scene["grid"]["cells"]
         self.cfl = scene["numerics"]["cfl"]
         self.material = scene.get("material")
         specimen = scene["specimen"]
         self.loading = scene.get("loading")
         self.free_motion = scene.get("free_motion")
         self.size = numpy.array(specimen_size(specimen))
+        grid = scene["grid"]
+        self.cells = numpy.array(grid["cells"]) if "cells" in grid else numpy.round(
+            self.size / [length(side) for side in numpy.atleast_1d(grid["spacing"])])
 
     def solid_sides(self):
         """Of each side whether nothing may pass it; the piston's is not among them."""
@@ -167,18 +169,35 @@ def first_rest(lines):
     return time[low] + 0.5 * (time[low + 1] - time[low]) * (a - c) / ((a - 2 * b + c) or 1)
 
 
+def growth(lines):
+    tenth = len(lines["time"]) // 10
+    first, last = (lines["elastic_energy"][part].max()
+                   for part in (slice(None, tenth + 1), slice(-tenth - 1, None)))
+    return last / first
+
+
+def drift_of_momentum(scene, lines, all_snapshots):
+    """Over the impulses that went through, or over the sizes of the particles' momenta where no wall
+    could give one."""
+    if scene.loading or any(scene.solid_sides()):
+        return lines["momentum_error"].max()
+    first, last = all_snapshots[0][1], all_snapshots[-1][1]
+    return (numpy.linalg.norm(last.sum(0) - first.sum(0))
+            / numpy.linalg.norm(first, axis=1).sum())
+
+
 def figures_of(folder, wanted):
     """The figures of a run that ended; those that only some scenes have if they are `wanted`."""
     scene, lines, seen = Scene(folder), history(folder), list(snapshots(folder))
     found = energies(lines) | places(scene, seen)
-    found["momentum"] = lines["momentum_error"].max()
+    found["momentum"] = drift_of_momentum(scene, lines, seen)
     found["ratio_low"] = min(ratio.min() for _, _, ratio, _ in seen)
     found["ratio_high"] = max(ratio.max() for _, _, ratio, _ in seen)
     if "turned" in wanted:
         first, last = (angular_momentum(*snapshot[:2]) for snapshot in (seen[0], seen[-1]))
         found["turned"] = abs(last / first - 1)
-    if "noise" in wanted:
-        found["noise"] = lines["elastic_energy"].max() / lines["kinetic_energy"][0]
+    if "growth" in wanted:
+        found["growth"] = growth(lines)
     if "stiffness" in wanted:
         found["stiffness"] = (exact_quarter_period(scene) / first_rest(lines)) ** 2
     return {name: float(f"{value:.3g}") for name, value in found.items()}
