@@ -207,6 +207,6 @@ def failed_at(folder, message):
     """Where a run ended that failed: the strain of its last line, or its step."""
     lines = history(folder)
     if "strain" in lines:
-        return f"{lines['strain'][-1]:.1%} strain" if len(lines["strain"]) else "the start"
+        return f"{100 * lines['strain'][-1]:.1f} % strain" if len(lines["strain"]) else "the start"
     found = re.search(r"step (\d+)", message)
     return f"step {found[1]}" if found else ""

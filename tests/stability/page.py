@@ -21,13 +21,13 @@ ORDERS = ("usf", "usl")
 
 
 def percent(value):
-    return f"{100 * value:.2g} %"
+    return f"{100 * value:.0f} %" if value >= 0.1 else f"{100 * value:.2g} %"
 
 
 def shown(name, value):
     if name in PERCENT:
         return f"{WORDS[name]} {percent(value)}"
-    return f"{WORDS[name]} {value:.2g}" if name != "pieces" else f"{value:.0f} pieces"
+    return f"{value:.0f} more pieces" if name == "pieces" else f"{WORDS[name]} {value:.2g}"
 
 
 def cell(row, letters):
@@ -37,6 +37,8 @@ def cell(row, letters):
     letter = f" ({letters[row['cause']]})" if row["cause"] else ""
     if row["verdict"] == "fails":
         return f"**fails**, {row['failed_at']}{letter}"
+    if row["verdict"] == "holds" and row["growth"]:
+        return "holds, " + shown("growth", float(row["growth"]))
     if row["verdict"] == "holds":
         return f"holds, {percent(max(float(row['gain']), float(row['loss'])))}"
     worst = row["beyond"].split()
