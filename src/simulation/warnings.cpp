@@ -117,6 +117,18 @@ void look_at_speed(const scene::Scene& scene, const micrograph::Specimen<Dim>& s
   }
 }
 
+/// Gradients that jump at cell borders (they allow no affine field) make noise, which only
+/// velocities that are mapped back, or forces that go first, keep small.
+void look_at_order(const scene::Numerics& numerics, Warnings& warnings)
+{
+  const UpdateOrderRow& order = *numerics.update_order;
+  if (!numerics.shape_function->stable_cfl.affine && !order.remaps && !order.stable_cfl)
+    warnings.push_back(fmt::format(
+        "{} shape functions with {} break down in crushing above a CFL of 0.18: the noise of "
+        "crossing cells grows. Take numerics.update_order: musl, or other shape functions.",
+        numerics.shape_function->keyword, order.keyword));
+}
+
 /// Particles that take increments keep the noise that crossing cells makes.
 template <int Dim>
 void look_at_flight(const scene::Scene& scene, const Layout<Dim>& layout, Warnings& warnings)
@@ -146,6 +158,7 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
   Warnings warnings;
   look_at_walls(scene, specimen, share, warnings);
   look_at_speed(scene, specimen, layout, warnings);
+  look_at_order(scene.numerics, warnings);
   look_at_flight(scene, layout, warnings);
   if (std::holds_alternative<scene::Loading>(scene.motion))
     look_at_reach(scene, specimen, layout, share, warnings);

@@ -107,6 +107,13 @@ class Warnings(ProgramTest):
                       "free_motion.end_time=29 us"):
             self.assertEqual(self.warnings_of(file, quiet), [], quiet)
 
+    def test_linear_functions_with_usf(self):
+        linear = "numerics.shape_function=linear"
+        self.assert_only(self.warnings(WHOLE, linear, "numerics.update_order=usf"),
+                         "linear shape functions with usf", "update_order: musl")
+        self.assertEqual(self.warnings(WHOLE, linear), [])
+        self.assertEqual(self.warnings(WHOLE, "numerics.update_order=usf"), [])
+
     def test_a_long_run(self):
         self.assert_only(self.check_only("loading.speed=1e-4 m/s", "steps=200000000"),
                          "1.8e+08 steps", "grid.cells")

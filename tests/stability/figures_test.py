@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy
 
+from atlas import defect
 from figures import energies, figures_of, pieces, snapshots
 
 SCENES = Path(__file__).with_name("scenes")
@@ -56,6 +57,18 @@ class Parts(unittest.TestCase):
         found = energies(lines)
         self.assertAlmostEqual(found["gain"], 0.2 / 3)
         self.assertAlmostEqual(found["loss"], 0.4 / 4)
+
+    def test_a_verdict_is_worse_beyond_the_slack_only(self):
+        table = {"bounds": {"loss": [None, 0.1]}}
+        case = {"name": "case", "expected": {"gimp pic": ["degrades", "damping"]}}
+        def judged(method, verdict, loss):
+            return defect(table, case, method, {"verdict": verdict, "loss": loss, "beyond": "loss",
+                                                "message": ""})
+        self.assertIsNone(judged("gimp flip", "holds", 0.05))
+        self.assertIsNone(judged("gimp flip", "degrades", 0.12))
+        self.assertIn("degrades, was: holds", judged("gimp flip", "degrades", 0.13))
+        self.assertIsNone(judged("gimp pic", "degrades", 0.5))
+        self.assertIn("fails, was: degrades", judged("gimp pic", "fails", 0.0))
 
     def test_pieces_are_cells_that_share_a_corner(self):
         spacing = numpy.array([1.0, 1.0])
