@@ -87,7 +87,7 @@ def run(mpm_par, table, case, method, folder):
     row |= {"case": case["name"], "scene": case["scene"], "beyond": "", "message": ""}
     if done.returncode not in (0, 3):
         raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
-    row["cfl"] = Scene(folder).cfl
+    row["cfl"] = float(f"{Scene(folder).cfl:.3g}")
     if done.returncode == 3:
         return row | {"verdict": "fails", "failed_at": failed_at(folder, done.stderr),
                       "message": message_of(done.stderr)}

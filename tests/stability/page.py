@@ -27,7 +27,9 @@ def percent(value):
 def shown(name, value):
     if name in PERCENT:
         return f"{WORDS[name]} {percent(value)}"
-    return f"{value:.0f} more pieces" if name == "pieces" else f"{WORDS[name]} {value:.2g}"
+    if name == "pieces":
+        return f"{value:.0f} more piece" + ("s" if value > 1 else "")
+    return f"{WORDS[name]} {value:.2g}"
 
 
 def cell(row, letters):
