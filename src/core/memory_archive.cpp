@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -37,7 +38,7 @@ bool same(const T& a, const T& b)
 
 void MemoryArchive::start_saving()
 {
-  entries_.clear();
+  spare_ = std::exchange(entries_, {});
   loading_ = false;
 }
 
@@ -63,11 +64,20 @@ std::string MemoryArchive::full(std::string_view name) const
 }
 
 template <class T>
-void MemoryArchive::save(std::string_view name, T value)
+void MemoryArchive::save(std::string_view name, const T& values)
 {
+  // T may be a span, the value is a list of the same.
+  using Kept = std::conditional_t<std::is_same_v<T, std::string>, std::string,
+                                  std::vector<typename T::value_type>>;
   const std::string place = full(name);
-  if (!entries_.try_emplace(place, Entry{std::move(value)}).second)
-    throw std::logic_error("two values of the name " + place);
+  if (entries_.contains(place)) throw std::logic_error("two values of the name " + place);
+  Value& value = entries_[place].value;
+  if (const auto before = spare_.find(place);
+      before != spare_.end() && std::holds_alternative<Kept>(before->second.value))
+    value = std::move(before->second.value);
+  else
+    value = Kept{};
+  std::get<Kept>(value).assign(values.begin(), values.end());
 }
 
 template <class T>
@@ -91,7 +101,7 @@ const T& MemoryArchive::load(std::string_view name)
 template <class T>
 void MemoryArchive::fixed(std::string_view name, std::span<T> values)
 {
-  if (!loading_) return save(name, std::vector<T>(values.begin(), values.end()));
+  if (!loading_) return save(name, values);
   const auto& saved = load<std::vector<T>>(name);
   if (saved.size() != values.size())
     throw InputError(fmt::format("saved state: {} has {} values, not {}. {}", full(name),

@@ -38,17 +38,18 @@ class Run {
 
   RunResult run()
   {
-    const auto loop_start = Clock::now();
     tell([&](Observer<Dim>& observer, const State&) { observer.start(history_.kind()); });
     look();
     record(time_step_.first());
     keep();
+    const auto loop_start = Clock::now();
+    const double observed_before = result_.observer_seconds;
     while (!finished_at(stepper_.time(), stepper_.steps())) try {
         advance();
       } catch (const NumericalError& error) {
         go_back(error);
       }
-    result_.step_seconds = seconds_since(loop_start) - result_.observer_seconds;
+    result_.step_seconds = seconds_since(loop_start) - (result_.observer_seconds - observed_before);
     for (Observer<Dim>* observer : observers_) observer->finish();
     fill_result();
     return std::move(result_);

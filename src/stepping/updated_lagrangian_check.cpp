@@ -1,8 +1,7 @@
 /// What the ranks of a run agree on from time to time, and how it ends when a particle is lost.
 
 #include <mpm/core/error.hpp>
-#include <mpm/materials/deformation_bounds.hpp>
-#include <mpm/materials/present_wave_speed.hpp>
+#include <mpm/materials/present_deformation.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/stepping/updated_lagrangian.hpp>
 
@@ -124,11 +123,12 @@ void UpdatedLagrangian<Dim>::check()
   constexpr double never = -std::numeric_limits<double>::infinity();
   double wave_speed = 0;
   for (const Body<Dim>& body : bodies()) {
-    wave_speed = std::max(wave_speed, present_wave_speed(body));
-    if (const auto found = find_beyond_bounds(body)) {
-      LostParticle<Dim> lost = lost_particle<Dim>(body.particles, found->particle);
+    const PresentDeformation present = present_deformation(body);
+    wave_speed = std::max(wave_speed, present.wave_speed);
+    if (const auto& beyond = present.beyond_bounds) {
+      LostParticle<Dim> lost = lost_particle<Dim>(body.particles, beyond->particle);
       lost.fault = Fault::beyond_bounds;
-      lost.ratio = found->volume_ratio;
+      lost.ratio = beyond->volume_ratio;
       exchange_->note_loss(body, lost, {steps_, time_});
     }
   }

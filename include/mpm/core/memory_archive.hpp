@@ -15,7 +15,8 @@ namespace mpm {
 /// Whoever met with an error while loading is half loaded and of no more use.
 class MemoryArchive final : public Archive {
  public:
-  /// Forgets what is there; what is named from now on is saved.
+  /// What is named from now on is saved, in the memory of what bore its name before; the rest of
+  /// what was there is forgotten.
   void start_saving();
   /// What is named from now on is loaded.
   void start_loading();
@@ -43,7 +44,7 @@ class MemoryArchive final : public Archive {
   void leave() override;
   std::string full(std::string_view name) const;
   template <class T>
-  void save(std::string_view name, T value);
+  void save(std::string_view name, const T& values);
   template <class T>
   const T& load(std::string_view name);
   template <class T>
@@ -51,7 +52,9 @@ class MemoryArchive final : public Archive {
   template <class T>
   void whole(std::string_view name, T& value);
 
-  std::map<std::string, Entry, std::less<>> entries_;
+  using Entries = std::map<std::string, Entry, std::less<>>;
+  Entries entries_;
+  Entries spare_;                      ///< whose memory is used again
   std::vector<std::string> sections_;  ///< those that are open
   bool loading_ = false;
 };

@@ -16,7 +16,7 @@ namespace mpm {
 enum class Fault : int {
   astray,         ///< it went where this rank's nodes do not reach, or is no longer a number
   inverted,       ///< det(I + dt L) of a step is not positive
-  beyond_bounds,  ///< its volume ratio is, materials/deformation_bounds.hpp
+  beyond_bounds,  ///< its volume ratio is, materials/present_deformation.hpp
 };
 
 template <int Dim>

@@ -92,6 +92,26 @@ TEST(MemoryArchive, SavingAgainForgetsWhatWasThere)
   EXPECT_THAT(archive.unread(), ElementsAre("only"));
 }
 
+TEST(MemoryArchive, SavingAgainTakesOtherLengthsAndKinds)
+{
+  MemoryArchive archive = saved(full_owner());
+  Owner owner{.masses = {1, 2, 3, 4, 5}, .ids = {6}, .name = "moist wood"};
+  archive.start_saving();
+  owner.archive(archive);
+  EXPECT_THAT(differences(archive, saved(owner)), IsEmpty());
+  std::vector<std::int64_t> masses{7};
+  archive.start_saving();
+  {
+    const Archive::Section body(archive, "body"), particles(archive, "particles");
+    archive.list("mass", masses);
+  }
+  archive.start_loading();
+  const Archive::Section body(archive, "body"), particles(archive, "particles");
+  std::vector<std::int64_t> loaded;
+  archive.list("mass", loaded);
+  EXPECT_THAT(loaded, ElementsAre(7));
+}
+
 TEST(MemoryArchive, ANameThatIsNotThereIsNamedWithItsSections)
 {
   MemoryArchive archive = saved(full_owner());

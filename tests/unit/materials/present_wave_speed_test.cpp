@@ -1,4 +1,4 @@
-#include <mpm/materials/present_wave_speed.hpp>
+#include <mpm/materials/present_deformation.hpp>
 
 #include <cmath>
 
@@ -49,7 +49,7 @@ Body<2> body_of(Form form, const std::vector<Eigen::Matrix2d>& states)
 
 double speed(Form form, const std::vector<Eigen::Matrix2d>& states)
 {
-  return present_wave_speed(body_of(form, states));
+  return present_deformation(body_of(form, states)).wave_speed;
 }
 
 class PresentWaveSpeed : public testing::TestWithParam<Form> {};

@@ -1,5 +1,5 @@
-#include <mpm/materials/deformation_bounds.hpp>
 #include <mpm/materials/hypoelastic_solid.hpp>
+#include <mpm/materials/present_deformation.hpp>
 
 #include <cmath>
 
@@ -22,6 +22,11 @@ Body<3> body_of(const std::vector<double>& ratios)
   }
   body.particles.seal();
   return body;
+}
+
+std::optional<BeyondBounds> find_beyond_bounds(const Body<3>& body)
+{
+  return present_deformation(body).beyond_bounds;
 }
 
 TEST(DeformationBounds, FirstParticleBeyondThemIsFound)
