@@ -2,16 +2,16 @@
 
     atlas.py MPM_PAR [--case NAME ...] [--quick] [--long] [--csv FILE] [--write]
 
-table.json holds the cases: a scene of `scenes` or `inputs`, what `--set` makes of it, the bounds of the
-figures (figures.py) and, for each method that does not hold, its verdict and the cause.
+table.json holds the cases: a scene of `scenes` or `inputs`, what `--set` makes of it, the bounds of
+the figures (figures.py) and, for each method that does not hold, its verdict and the cause.
 
     holds      the run ends and every figure is within its bounds
     degrades   the run ends, a figure is beyond its bounds
     fails      the program stops the run; its message is in the results
 
-A verdict that is worse than the table's is an error, exit status 1; where a collapse differs by rounding,
-as between machines, a figure may be beyond its bound by a quarter. --csv writes the results, --write the
-verdicts into the table, where causes of new ones are to be filled in.
+A verdict that is worse than the table's is an error, exit status 1; as collapses differ by rounding
+between machines, a figure may be beyond its bound by a quarter. --csv writes the results, --write
+the verdicts into the table, where causes of new ones are to be filled in.
 """
 import argparse
 import csv
@@ -95,7 +95,8 @@ def run(mpm_par, table, case, method, folder):
     figures = figures_of(folder, bounds)
     beyond = broken(bounds, figures)
     row["steps"] = json.loads((folder / "summary.json").read_text())["steps"]
-    return row | figures | {"verdict": "degrades" if beyond else "holds", "beyond": " ".join(beyond)}
+    verdict = "degrades" if beyond else "holds"
+    return row | figures | {"verdict": verdict, "beyond": " ".join(beyond)}
 
 
 def defect(table, case, method, row):
@@ -121,13 +122,14 @@ def learn(case, method, row):
 def text_of(table):
     """As JSON: a line for each entry of a map, a block for each case."""
     def mapped(entries, indent):
-        lines = [f"{indent}  {json.dumps(key)}: {json.dumps(value)}" for key, value in entries.items()]
+        lines = [f"{indent}  {json.dumps(key)}: {json.dumps(value)}"
+                 for key, value in entries.items()]
         return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
     blocks = [f'  "{key}": {mapped(table[key], "  ")}' for key in table if key != "cases"]
     cases = []
     for case in table["cases"]:
-        lines = [f'      "{key}": ' + (mapped(value, "      ") if key == "expected" else json.dumps(value))
-                 for key, value in case.items()]
+        lines = [f'      "{key}": ' + (mapped(value, "      ") if key == "expected"
+                                       else json.dumps(value)) for key, value in case.items()]
         cases.append("    {\n" + ",\n".join(lines) + "\n    }")
     return "{\n" + ",\n".join(blocks) + ',\n  "cases": [\n' + ",\n".join(cases) + "\n  ]\n}\n"
 
@@ -151,7 +153,8 @@ def main():
                                         formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("mpm_par", type=Path)
     arguments.add_argument("--case", nargs="+", help="names; all that are not long unless given")
-    arguments.add_argument("--quick", action="store_true", help="the methods that a case has for it")
+    arguments.add_argument("--quick", action="store_true",
+                           help="the methods that a case has for it")
     arguments.add_argument("--long", action="store_true",
                            help="whole micrographs and 10^6 steps, a minute each")
     arguments.add_argument("--csv", type=Path, help="rows of other runs in it stay")

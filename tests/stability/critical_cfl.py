@@ -5,8 +5,8 @@
 Scenes, each by bisection to 3 %, within what numerics.cfl may be:
 
     bar       rings, its free end at the worst place past a node: the energy gains less than 5 %
-    corner    a free block creeps diagonally through cells with a whisper of noise in it: the largest
-              elastic energy of the last tenth stays below ten times that of the first
+    corner    a free block creeps diagonally through cells with a whisper of noise in it: the
+              largest elastic energy of the last tenth stays below ten times that of the first
     corner_nu the same at Poisson's ratio 0.49
     drift     a block without an end drifts through 32 cells: the same
     crush     a honeycomb is crushed to 60 % at 50 m/s: the energy gains less than 2 %
@@ -58,8 +58,8 @@ def run(mpm_par, scene, settings, method, cfl, folder):
 
 
 def largest(bears, start):
-    """Between LOWEST and HIGHEST, from `start` on in strides of a third; where what is borne is not one
-    piece, the end of the piece that is met first."""
+    """Between LOWEST and HIGHEST, from `start` on in strides of a third; where what is borne is not
+    one piece, the end of the piece that is met first."""
     low = high = start
     if bears(start):
         while low == high:

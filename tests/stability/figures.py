@@ -129,8 +129,8 @@ def places(scene, all_snapshots):
         position = position[:, :dimensions]
         found["pieces"] = max(found["pieces"], pieces(position, spacing) - start)
         lower, upper, piston = faces(scene, scene.size, strain)
-        inside = numpy.column_stack([position.min(0) - lower, upper - position.max(0)]) / spacing[:, None]
-        inside = inside.ravel()
+        inside = numpy.column_stack([position.min(0) - lower, upper - position.max(0)])
+        inside = (inside / spacing[:, None]).ravel()
         found["through"] = max(found["through"], *(-inside[solid]), 0.0)
         if piston is not None:
             axis = piston // 2
@@ -147,9 +147,10 @@ def exact_quarter_period(scene):
     """Of a cantilever in plane strain, s: Euler's first mode with rotary inertia and shear of
     Timoshenko's beam as a Rayleigh quotient, omega^2 = omega_E^2 / (1 + 4.648 (r/L)^2
     (1 + E'/(k G))), k = 5/6; 4.648 = L^2 int phi'^2 / int phi^2 of the mode."""
-    value = {key: float(str(text).split()[0]) * {"GPa": 1e9, "MPa": 1e6}.get(str(text).split()[-1], 1)
-             for key, text in scene.material.items()
-             if key in ("youngs_modulus", "poisson_ratio", "density")}
+    value = {}
+    for key in ("youngs_modulus", "poisson_ratio", "density"):
+        number, *unit = str(scene.material[key]).split()
+        value[key] = float(number) * {"GPa": 1e9, "MPa": 1e6}.get(*unit[:1] or [""], 1)
     modulus, nu = value["youngs_modulus"], value["poisson_ratio"]
     span, thick = scene.size[:2]
     plane = modulus / (1 - nu**2)
@@ -177,8 +178,8 @@ def growth(lines):
 
 
 def drift_of_momentum(scene, lines, all_snapshots):
-    """Over the impulses that went through, or over the sizes of the particles' momenta where no wall
-    could give one."""
+    """Over the impulses that went through, or over the sizes of the particles' momenta where no
+    wall could give one."""
     if scene.loading or any(scene.solid_sides()):
         return lines["momentum_error"].max()
     first, last = all_snapshots[0][1], all_snapshots[-1][1]

@@ -89,19 +89,20 @@ def messages(table, rows):
 
 
 def critical_text(table):
-    text = ["| shape function, scheme, update order | bar | corner | corner, ratio 0.49 | drift | crush "
-            "| theory | default |", "|---|" + "---|" * 7]
+    text = ["| shape function, scheme, update order | bar | corner | corner, ratio 0.49 | drift "
+            "| crush | theory | default |", "|---|" + "---|" * 7]
     for method, found in json.loads(CRITICAL.read_text()).items():
         measured = [found[name] for name in ("bar", "corner", "corner_nu", "drift", "crush")]
         text.append(f"| {', '.join(keys_of(method))} | " + " | ".join(
-            "none" if value == 0 else "2 or more" if value >= 2 else f"{value:g}" for value in measured)
-            + f" | {table['limits'][method]:g} | {found['default']:.2g} |")
+            "none" if value == 0 else "2 or more" if value >= 2 else f"{value:g}"
+            for value in measured) + f" | {table['limits'][method]:g} | {found['default']:.2g} |")
     return "\n".join(text) + "\n"
 
 
 def main():
     table, rows = json.loads(TABLE.read_text()), results()
-    used = [cause for cause in table["causes"] if any(row["cause"] == cause for row in rows.values())]
+    found = {row["cause"] for row in rows.values()}
+    used = [cause for cause in table["causes"] if cause in found]
     letters = {cause: chr(ord("a") + k) for k, cause in enumerate(used)}
     plain = [" ".join(keys_of(method)) for method in table["methods"]["all"]]
     ordered = [" ".join(keys_of(method)) for method in table["methods"]["orders"]]
@@ -113,8 +114,8 @@ def main():
     cases = [case for case in table["cases"] if "orders" in case["methods"]]
     parts += ["## Other update orders\n", table_of(cases, ordered, rows, letters), "## Causes\n",
               "\n".join(f"- ({letters[cause]}) {table['causes'][cause]}" for cause in used) + "\n",
-              "## What the program says\n", "The message of the first method that fails in each scene:\n",
-              messages(table, rows), (HERE / "critical.md").read_text(), critical_text(table)]
+              "## What the program says\n",
+              "The message of the first method that fails in each scene:\n", messages(table, rows), (HERE / "critical.md").read_text(), critical_text(table)]
     page = "\n".join(parts)
     if "--check" not in sys.argv[1:]:
         PAGE.write_text(page)
