@@ -43,8 +43,10 @@ def cell(row, letters):
         return "holds, " + shown("growth", float(row["growth"]))
     if row["verdict"] == "holds":
         return f"holds, {percent(max(float(row['gain']), float(row['loss'])))}"
-    worst = row["beyond"].split()
-    return "*degrades*, " + ", ".join(shown(name, float(row[name])) for name in worst) + letter
+    told = [shown(name, float(row[name])) for name in row["beyond"].split()]
+    if not {"gain", "loss"} & set(row["beyond"].split()):
+        told.insert(0, percent(max(float(row["gain"]), float(row["loss"]))))
+    return "*degrades*, " + ", ".join(told) + letter
 
 
 def results():
@@ -115,7 +117,8 @@ def main():
     parts += ["## Other update orders\n", table_of(cases, ordered, rows, letters), "## Causes\n",
               "\n".join(f"- ({letters[cause]}) {table['causes'][cause]}" for cause in used) + "\n",
               "## What the program says\n",
-              "The message of the first method that fails in each scene:\n", messages(table, rows), (HERE / "critical.md").read_text(), critical_text(table)]
+              "The message of the first method that fails in each scene:\n",
+              messages(table, rows), (HERE / "critical.md").read_text(), critical_text(table)]
     page = "\n".join(parts)
     if "--check" not in sys.argv[1:]:
         PAGE.write_text(page)
