@@ -1,20 +1,22 @@
 #!/bin/sh
 # Installs what is missing, builds and runs every test. Arguments go to ctest:
 #
-#   sh jobscripts/test.sh                 all tests but those of performance and convergence
+#   sh jobscripts/test.sh                 all tests but those of performance, convergence, stability
 #   sh jobscripts/test.sh -L unit         those with the label unit
 #   sh jobscripts/test.sh -R snapshot     those whose name contains snapshot
 #   sh jobscripts/test.sh -L performance  does everything still measure? docs/building.md, Benchmarks
 #   sh jobscripts/test.sh -L convergence  errors against exact solutions on four grids each
+#   sh jobscripts/test.sh -L stability    stiff and extreme scenes with every method
 #
 # The exit status is ctest's: 0 if every test passed. No test at all counts as a failure.
 set -eu
-case ${1-} in -h | --help) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 0 ;; esac
+case ${1-} in -h | --help) sed -n '2,11s/^# \{0,1\}//p' "$0"; exit 0 ;; esac
 cd "$(dirname "$0")/.."
 
 sh jobscripts/build.sh
 . jobscripts/environment.sh
 cd build
 # Measuring wants the machine for itself, and ladders take long: only where asked for by name.
-case " $* " in *performance* | *convergence*) ;; *) set -- -LE "performance|convergence" "$@" ;; esac
+case " $* " in *performance* | *convergence* | *stability*) ;;
+  *) set -- -LE "performance|convergence|stability" "$@" ;; esac
 exec ctest --output-on-failure --no-tests=error -j"$(nproc)" "$@"

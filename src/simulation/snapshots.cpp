@@ -70,6 +70,23 @@ std::vector<double> of_stress(const std::vector<Body<Dim>>& bodies, Function fun
   return values;
 }
 
+/// J of every particle.
+template <int Dim>
+std::vector<double> volume_ratios(const std::vector<Body<Dim>>& bodies)
+{
+  std::vector<double> values;
+  values.reserve(count(bodies));
+  for (const Body<Dim>& body : bodies) {
+    Lanes block;
+    for (LocalIndex p = 0; p < body.particles.size(); ++p) {
+      if (p % lane_count == 0)
+        block = body.law->volume_ratio(body.particles.state().block(p / lane_count));
+      values.push_back(block[p % lane_count]);
+    }
+  }
+  return values;
+}
+
 std::array<double, 1> von_mises(const std::array<double, 6>& s)
 {
   const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
@@ -94,6 +111,8 @@ ParticleField make_field(Field field, const Formulation<Dim>& formulation)
       return {"von_mises", "Pa", 1, of_stress<1>(bodies, von_mises)};
     case Field::pressure:
       return {"pressure", "Pa", 1, of_stress<1>(bodies, pressure)};
+    case Field::volume_ratio:
+      return {"volume_ratio", "1", 1, volume_ratios(bodies)};
     case Field::plastic_strain:
       return {"plastic_strain", "1", 1, state_column(bodies, "plastic_strain")};
     case Field::plastic_work:

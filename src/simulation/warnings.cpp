@@ -19,6 +19,8 @@ constexpr double quasi_static_speed = 0.01;
 /// A sudden start sends a wave of this strain through the specimen.
 constexpr double sudden_strain = 1e-3;
 constexpr double many_steps = 1e8;
+/// In cells: noise has grown tenfold or more (docs/stability.md).
+constexpr double long_flight = 30;
 
 using Warnings = std::vector<std::string>;
 
@@ -114,6 +116,37 @@ void look_at_speed(const scene::Scene& scene, const micrograph::Specimen<Dim>& s
   }
 }
 
+/// Gradients that jump at cell borders (they allow no affine field) make noise, which only
+/// velocities that are mapped back, or forces that go first, keep small.
+void look_at_order(const scene::Numerics& numerics, Warnings& warnings)
+{
+  const UpdateOrderRow& order = *numerics.update_order;
+  if (!numerics.shape_function->stable_cfl.affine && !order.remaps && !order.stable_cfl)
+    warnings.push_back(fmt::format(
+        "{} shape functions with {} break down in crushing above a CFL of 0.18: the noise of "
+        "crossing cells grows. Take numerics.update_order: musl, or other shape functions.",
+        numerics.shape_function->keyword, order.keyword));
+}
+
+/// Particles that take increments keep the noise that crossing cells makes.
+template <int Dim>
+void look_at_flight(const scene::Scene& scene, const Layout<Dim>& layout, Warnings& warnings)
+{
+  const scene::Numerics& numerics = scene.numerics;
+  if (!std::holds_alternative<scene::FreeMotion>(scene.motion) ||
+      numerics.scheme->stable_cfl != &StableCfl::increments || numerics.update_order->stable_cfl)
+    return;
+  const double end =
+      std::min(layout.end_time, expected_steps(scene, layout) * time_step_of(layout).first());
+  const double cells = layout.largest_speed * end / layout.geometry.smallest_spacing();
+  if (cells > long_flight)
+    warnings.push_back(fmt::format(
+        "at {:.4g} m/s something may cross {:.0f} cells in this run: each makes noise, which {} "
+        "keeps and which grows in free flight and rotation. Take gimp or quadratic with scheme "
+        "apic or tpic.",
+        layout.largest_speed, cells, numerics.scheme->keyword));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -124,6 +157,8 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
   Warnings warnings;
   look_at_walls(scene, specimen, share, warnings);
   look_at_speed(scene, specimen, layout, warnings);
+  look_at_order(scene.numerics, warnings);
+  look_at_flight(scene, layout, warnings);
   if (std::holds_alternative<scene::Loading>(scene.motion))
     look_at_reach(scene, specimen, layout, share, warnings);
   if (const auto limit = stable_cfl_of(scene.numerics); limit && layout.cfl > *limit)

@@ -9,8 +9,8 @@ import unittest
 from program import History, ProgramTest, summary
 
 READER = pathlib.Path(__file__).parents[1] / "support" / "read_xdmf.py"
-FIELDS = {"velocity": 3, "stress": 6, "von_mises": 1, "plastic_strain": 1, "plastic_work": 1,
-          "material": 1, "id": 1, "rank": 1}
+FIELDS = {"velocity": 3, "stress": 6, "von_mises": 1, "volume_ratio": 1, "plastic_strain": 1,
+          "plastic_work": 1, "material": 1, "id": 1, "rank": 1}
 
 
 class Snapshots(ProgramTest):
@@ -70,6 +70,7 @@ class Snapshots(ProgramTest):
         if snapshot["time"] == 0:
             self.assertEqual(ranges["velocity"], [0, 0])
             self.assertEqual(ranges["von_mises"], [0, 0])
+            self.assertEqual(ranges["volume_ratio"], [1, 1])
         else:
             self.assertLess(ranges["velocity"][0], -1, "the piston pushes to the left")
             self.assertGreater(ranges["von_mises"][1], 1e6)

@@ -14,6 +14,15 @@ loading: {piston: right, speed: 1 m/s, strain: 30 %}
 steps: 2
 output: {snapshots: 0}
 """
+FLIGHT = """
+material: {law: isotropic, youngs_modulus: 10 GPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
+specimen:
+  size: [1 mm, 1 mm]
+  shapes: [{box: {lower: [0 mm, 0 mm], upper: [1 mm, 1 mm]}, velocity: [50 m/s, 0 m/s]}]
+grid: {cells: [20, 20], margin: [0 mm, 2 mm, 0 mm, 0 mm]}
+free_motion: {end_time: 32 us}
+output: {snapshots: 0}
+"""
 WHOLE = ["{lower: [0 mm, 0 mm], upper: [1 mm, 1 mm]}"]
 # Walls across the specimen, 1.5 cells of 50 um thick.
 THIN = [f"{{lower: [{x} mm, 0 mm], upper: [{x + 0.075} mm, 1 mm]}}" for x in (0.2, 0.4, 0.6)]
@@ -87,6 +96,23 @@ class Warnings(ProgramTest):
             "before the fastest wave has crossed", "loading.ramp_time")
         self.assert_only(self.warnings(WHOLE, "loading.speed=4 km/s"),
                          "not below that of the fastest wave, 3669 m/s")
+
+    def test_a_long_free_flight(self):
+        file = self.folder / "flight.yaml"
+        file.write_text(FLIGHT)
+        # 50 m/s for 32 us: 1.6 mm of 0.05 mm cells.
+        self.assert_only(self.warnings_of(file), "50 m/s something may cross 32 cells",
+                         "scheme apic or tpic")
+        for quiet in ("numerics.scheme=apic", "numerics.update_order=usl",
+                      "free_motion.end_time=29 us"):
+            self.assertEqual(self.warnings_of(file, quiet), [], quiet)
+
+    def test_linear_functions_with_usf(self):
+        linear = "numerics.shape_function=linear"
+        self.assert_only(self.warnings(WHOLE, linear, "numerics.update_order=usf"),
+                         "linear shape functions with usf", "update_order: musl")
+        self.assertEqual(self.warnings(WHOLE, linear), [])
+        self.assertEqual(self.warnings(WHOLE, "numerics.update_order=usf"), [])
 
     def test_a_long_run(self):
         self.assert_only(self.check_only("loading.speed=1e-4 m/s", "steps=200000000"),

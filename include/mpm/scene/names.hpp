@@ -55,6 +55,7 @@ inline constexpr auto names_of<Field> =
                                  {Field::stress, "stress"},
                                  {Field::von_mises, "von_mises"},
                                  {Field::pressure, "pressure"},
+                                 {Field::volume_ratio, "volume_ratio"},
                                  {Field::plastic_strain, "plastic_strain"},
                                  {Field::plastic_work, "plastic_work"},
                                  {Field::material, "material"},

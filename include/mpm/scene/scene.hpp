@@ -181,6 +181,7 @@ enum class Field {
   stress,
   von_mises,
   pressure,
+  volume_ratio,
   plastic_strain,
   plastic_work,
   material,

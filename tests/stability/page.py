@@ -1,0 +1,130 @@
+"""Writes docs/stability.md from table.json, stability.csv and critical_cfl.json.
+
+    page.py [--check]    --check: only says whether the page is the one that would be written
+"""
+import csv
+import json
+import sys
+
+from atlas import FIGURES, HERE, PROJECT, RESULTS, TABLE, bounds_of, keys_of
+from critical_cfl import FILE as CRITICAL
+
+PAGE = PROJECT / "docs" / "stability.md"
+INTRODUCTION = (HERE / "introduction.md").read_text()
+GROUPS = {"stiff": "Stiff scenes", "extreme": "Extreme scenes", "space": "In space",
+          "wood": "Whole wood"}
+WORDS = {"gain": "gain", "loss": "loss", "ratio_low": "J", "ratio_high": "J", "through": "through",
+         "gap": "gap", "pieces": "pieces", "momentum": "momentum", "turned": "turned",
+         "growth": "growth", "stiffness": "stiffness"}
+PERCENT = ("gain", "loss", "turned")
+ORDERS = ("usf", "usl")
+
+
+def percent(value):
+    return f"{100 * value:.0f} %" if value >= 0.1 else f"{100 * value:.2g} %"
+
+
+def shown(name, value):
+    if name in PERCENT:
+        return f"{WORDS[name]} {percent(value)}"
+    if name == "pieces":
+        return f"{value:.0f} more piece" + ("s" if value > 1 else "")
+    return f"{WORDS[name]} {value:.2g}"
+
+
+def cell(row, letters):
+    """Verdict, figure and the letter of the cause."""
+    if row is None:
+        return ""
+    letter = f" ({letters[row['cause']]})" if row["cause"] else ""
+    if row["verdict"] == "fails":
+        return f"**fails**, {row['failed_at']}{letter}"
+    if row["verdict"] == "holds" and row["growth"]:
+        return "holds, " + shown("growth", float(row["growth"]))
+    if row["verdict"] == "holds":
+        return f"holds, {percent(max(float(row['gain']), float(row['loss'])))}"
+    told = [shown(name, float(row[name])) for name in row["beyond"].split()]
+    if not {"gain", "loss"} & set(row["beyond"].split()):
+        told.insert(0, percent(max(float(row["gain"]), float(row["loss"]))))
+    return "*degrades*, " + ", ".join(told) + letter
+
+
+def results():
+    with open(RESULTS, newline="") as file:
+        return {(row["case"], f"{row['shape_function']} {row['scheme']} {row['update_order']}"): row
+                for row in csv.DictReader(file)}
+
+
+def table_of(cases, methods, rows, letters):
+    heads = [method.removesuffix(" musl").replace(" ", ", ", 1) for method in methods]
+    text = ["| scene | " + " | ".join(heads) + " |", "|---|" + "---|" * len(methods)]
+    for case in cases:
+        cells = [cell(rows.get((case["name"], method)), letters) for method in methods]
+        text.append(f"| {case['what']} (`{case['name']}`) | " + " | ".join(cells) + " |")
+    return "\n".join(text) + "\n"
+
+
+def bounds_text(table):
+    def one(name, low, high):
+        return f"`{name}` " + ", ".join(([f"at least {low:g}"] if low is not None else []) +
+                                        ([f"at most {high:g}"] if high is not None else []) or
+                                        ["not judged"])
+    text = ["Bounds: " + "; ".join(one(name, *limits) for name, limits in table["bounds"].items()) +
+            ". Where a scene has its own:", "", "| scene | bounds |", "|---|---|"]
+    for case in table["cases"]:
+        if case.get("bounds"):
+            text.append(f"| `{case['name']}` | " + "; ".join(
+                one(name, *limits) for name, limits in case["bounds"].items()) + " |")
+    return "\n".join(text) + "\n"
+
+
+def messages(table, rows):
+    """What the user is told, once for each case."""
+    text = []
+    for case in table["cases"]:
+        failed = [(method, row) for (name, method), row in rows.items()
+                  if name == case["name"] and row["verdict"] == "fails"]
+        if failed:
+            method, row = failed[0]
+            text.append(f"- `{case['name']}`, {method.removesuffix(' musl')}: \"{row['message']}\"")
+    return "\n".join(text) + "\n"
+
+
+def critical_text(table):
+    text = ["| shape function, scheme, update order | bar | corner | corner, ratio 0.49 | drift "
+            "| crush | theory | default |", "|---|" + "---|" * 7]
+    for method, found in json.loads(CRITICAL.read_text()).items():
+        measured = [found[name] for name in ("bar", "corner", "corner_nu", "drift", "crush")]
+        text.append(f"| {', '.join(keys_of(method))} | " + " | ".join(
+            "none" if value == 0 else "2 or more" if value >= 2 else f"{value:g}"
+            for value in measured) + f" | {table['limits'][method]:g} | {found['default']:.2g} |")
+    return "\n".join(text) + "\n"
+
+
+def main():
+    table, rows = json.loads(TABLE.read_text()), results()
+    found = {row["cause"] for row in rows.values()}
+    used = [cause for cause in table["causes"] if cause in found]
+    letters = {cause: chr(ord("a") + k) for k, cause in enumerate(used)}
+    plain = [" ".join(keys_of(method)) for method in table["methods"]["all"]]
+    ordered = [" ".join(keys_of(method)) for method in table["methods"]["orders"]]
+    parts = [INTRODUCTION.replace("FIGURES", ", ".join(f"`{name}`" for name in FIGURES)),
+             bounds_text(table)]
+    for group, title in GROUPS.items():
+        cases = [case for case in table["cases"] if case["group"] == group]
+        parts += [f"## {title}\n", table_of(cases, plain, rows, letters)]
+    cases = [case for case in table["cases"] if "orders" in case["methods"]]
+    parts += ["## Other update orders\n", table_of(cases, ordered, rows, letters), "## Causes\n",
+              "\n".join(f"- ({letters[cause]}) {table['causes'][cause]}" for cause in used) + "\n",
+              "## What the program says\n",
+              "The message of the first method that fails in each scene:\n",
+              messages(table, rows), (HERE / "critical.md").read_text(), critical_text(table)]
+    page = "\n".join(parts)
+    if "--check" not in sys.argv[1:]:
+        PAGE.write_text(page)
+    elif PAGE.read_text() != page:
+        sys.exit(f"{PAGE} is not what {HERE.name}/page.py writes: run it")
+
+
+if __name__ == "__main__":
+    main()
