@@ -3,17 +3,22 @@ and compares errors with those of table.json.
 
     ladders.py MPM_PAR [--scene NAME ...] [--levels N] [--write]
 
-table.json holds, for each scene: its file, what `--set` makes of a level (`{n}`: the level), the error
-that is looked at (a key of exact_solution in summary.json), the levels, and for each method the errors
-that they have. --write puts the measured errors there, for a change that is meant to alter them.
+table.json holds, for each scene: its file, what `--set` makes of a level (`{2*n}`: twice the level), the
+levels, and for each method the errors that they have. An error is a key of exact_solution in
+summary.json ("error"), or what a function of measures/ ("measure", "options") finds over what is "exact",
+less one; "floor" is what that function or that value is uncertain by. "bound" says that the exact value is
+one from below. --write puts the measured errors there, for a change that is meant to alter them.
 """
 import argparse
 import json
 import math
+import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+import measures
 
 TABLE = Path(__file__).with_name("table.json")
 SCENES = Path(__file__).parents[2] / "inputs" / "benchmarks"
@@ -22,13 +27,19 @@ WORSE = 1.10  # an error may grow by so much, not more
 
 def orders(levels, errors):
     """Of each pair of neighbours; h is 1 / level."""
-    return [math.log(a / b) / math.log(m / n)
+    return [math.log(abs(a / b)) / math.log(m / n)
             for (n, a), (m, b) in zip(zip(levels, errors), list(zip(levels, errors))[1:])]
+
+
+def settings_of(case, level):
+    """For --set: what stands in braces is worked out."""
+    return [re.sub(r"{(.*?)}", lambda found: str(measures.number(found[1], n=level)), setting)
+            for setting in case["settings"]]
 
 
 def error_of(mpm_par, case, method, level, folder):
     """The error of one run; None if it broke down."""
-    settings = [setting.format(n=level) for setting in case["settings"]]
+    settings = settings_of(case, level)
     settings += [f"numerics.{key}={value}" for key, value in zip(("shape_function", "scheme"),
                                                                  method.split())]
     command = [str(mpm_par), str(SCENES / case["scene"]), "--output", str(folder)]
@@ -39,6 +50,8 @@ def error_of(mpm_par, case, method, level, folder):
         return None
     if done.returncode:
         raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+    if "measure" in case:
+        return measures.error(case, level, folder)
     return json.loads((folder / "summary.json").read_text())["exact_solution"][case["error"]]
 
 
@@ -49,8 +62,10 @@ def defects(case, method, known, measured):
         where = f"{case['scene']}, {method}, level {level}"
         if (before is None) != (now is None):
             found.append(f"{where}: {'broke down' if now is None else 'ran'}, which it did not before")
-        elif now is not None and now > WORSE * before:
-            found.append(f"{where}: error {now:.3g}, {now / before - 1:.0%} above {before:.3g}")
+        elif now is not None and abs(now) > WORSE * max(abs(before), case.get("floor", 0)):
+            found.append(f"{where}: error {now:.3g}, more than {WORSE} times {before:.3g}")
+        elif now is not None and now < 0 and case.get("bound"):
+            found.append(f"{where}: {now:.3g} below what is a bound")
     return found
 
 
