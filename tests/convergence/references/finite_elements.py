@@ -24,12 +24,24 @@ def shape_gradient(s, t, step=1e-3):
                         (shape(s, t + step) - shape(s, t - step)) / (2 * step)])
 
 
+def towards_start(count):
+    """Ends of elements on [0, 1] that get finer towards 0."""
+    return numpy.linspace(0, 1, count + 1)**2
+
+
+def towards_both(count):
+    """The same, finer towards 0 and 1; an even count."""
+    half = towards_start(count // 2) / 2
+    return numpy.concatenate([half, 1 - half[-2::-1]])
+
+
 def patch(place, along, across):
-    """Nodes of along x across elements, [element, node, 2]; `place` maps the unit square."""
-    a, b = numpy.meshgrid(numpy.arange(along), numpy.arange(across), indexing="ij")
-    local = (NODES + 1) / 2
-    u = (a.reshape(-1, 1) + local[:, 0]) / along
-    v = (b.reshape(-1, 1) + local[:, 1]) / across
+    """Nodes of elements [element, node, 2]: `along` and `across` are their ends in the unit square that
+    `place` maps."""
+    a, b = numpy.meshgrid(numpy.arange(len(along) - 1), numpy.arange(len(across) - 1), indexing="ij")
+    a, b, local = a.reshape(-1, 1), b.reshape(-1, 1), (NODES + 1) / 2
+    u = along[a] + (along[a + 1] - along[a]) * local[:, 0]
+    v = across[b] + (across[b + 1] - across[b]) * local[:, 1]
     return numpy.stack(place(u, v), axis=-1)
 
 
@@ -49,7 +61,8 @@ class Plane:
     def __init__(self, patches, youngs_modulus, poisson_ratio, yield_stress=numpy.inf):
         places = numpy.concatenate(patches)
         size = numpy.ptp(places.reshape(-1, 2), axis=0).max()
-        keys, first, inverse = numpy.unique((places / size * 1e8).round().astype(numpy.int64)
+        # Places that are the same but for rounding fall on one number; none is near the shifted ends.
+        _, first, inverse = numpy.unique(numpy.floor(places / size * 1e8 + 0.31416).astype(int)
                                             .reshape(-1, 2), axis=0, return_index=True,
                                             return_inverse=True)
         self.nodes = places.reshape(-1, 2)[first]

@@ -11,24 +11,27 @@ import sys
 
 import numpy
 
-from finite_elements import Plane, extrapolated, four_sided, patch
+from finite_elements import (Plane, extrapolated, four_sided, patch, towards_both,
+                             towards_start)
 
 
 def cell(thickness, n, poisson_ratio, yield_stress=numpy.inf):
-    """Sides of length 1; n elements across half a wall. Width sqrt(3)/2, height 3/2."""
+    """Sides of length 1; n elements across half a wall, finer at the corners. Width sqrt(3)/2, height 3/2."""
     width, height, t = numpy.sqrt(3) / 2, 1.5, thickness
     p = numpy.array([width - t / 2, 0.5 - t / numpy.sqrt(12)])  # inner corner
     q = numpy.array([width, 0.5 + t / numpy.sqrt(3)])           # where both inclined walls meet
     m = numpy.array([width, p[1]])
     foot = [numpy.array([width - t / 2, 0]), numpy.array([width, 0])]
     centre = (p + q + m) / 3
-    wall = [patch(four_sided([foot[0], foot[1], m, p]), 2 * n, max(2, round(2 * p[1] / t)) * n)]
+    wall = [patch(four_sided([foot[0], foot[1], m, p]), towards_both(2 * n),
+                  1 - towards_start(max(1, round(p[1] / t)) * 2 * n)[::-1])]
     for a, b, c in ((p, m, q), (m, q, p), (q, p, m)):
-        wall.append(patch(four_sided([a, (a + b) / 2, centre, (a + c) / 2]), n, n))
+        wall.append(patch(four_sided([a, (a + b) / 2, centre, (a + c) / 2]), towards_start(n), towards_start(n)))
     turned = [numpy.array([width, height]) - numpy.flip(x, axis=0)[..., :] for x in wall]
     far = numpy.array([width, height])
     length = 1 - t / numpy.sqrt(3)
-    inclined = patch(four_sided([p, q, far - p, far - q]), 2 * n, max(2, round(length / t)) * 2 * n)
+    inclined = patch(four_sided([p, q, far - p, far - q]), towards_both(2 * n),
+                     towards_both(max(1, round(length / t)) * 2 * n))
     return Plane(wall + turned + [inclined], 1.0, poisson_ratio, yield_stress)
 
 
@@ -55,7 +58,7 @@ def main():
     t = float(sys.argv[1]) if len(sys.argv) > 1 else 0.3
     nu = float(sys.argv[2]) if len(sys.argv) > 2 else 0.33
     moduli = []
-    for n in (4, 8, 16):
+    for n in (2, 4, 8):
         c11 = loaded(cell(t, n, nu), [1.0], 0.0)[0, 0]
         e, _, ratio = loaded(cell(t, n, nu), [1.0])[0]
         moduli.append([c11, e, ratio])
@@ -68,11 +71,11 @@ def main():
             body = cell(t, n, nu, yield_stress)
             elastic = moduli[-1][0 if confined else 1]
             end = (8 if confined else 4) * t * t * yield_stress / elastic
-            found = loaded(body, numpy.linspace(0, end, 41)[1:], 0.0 if confined else None)
-            slope = numpy.polyfit(found[-6:, 2], numpy.linspace(0, end, 41)[-6:], 1)[0] \
+            found = loaded(body, numpy.linspace(0, end, 161)[1:], 0.0 if confined else None)
+            slope = numpy.polyfit(found[-6:, 2], numpy.linspace(0, end, 161)[-6:], 1)[0] \
                 if not confined else numpy.inf
             collapse.append(found[-1, 0] / yield_stress)
-            print(f"{'confined' if confined else 'free'} n {n}: stress/yield", found[::8, 0] /
+            print(f"{'confined' if confined else 'free'} n {n}: stress/yield", found[::32, 0] /
                   yield_stress, f"last {collapse[-1]:.5f}, rate along x {1 / slope:.4f}", flush=True)
 
 
