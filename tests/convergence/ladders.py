@@ -6,8 +6,8 @@ and compares errors with those of table.json.
 table.json holds, for each scene: its file, what `--set` makes of a level (`{2*n}`: twice the level), the
 levels, and for each method the errors that they have. An error is a key of exact_solution in
 summary.json ("error"), or what a function of measures/ ("measure", "options") finds over what is "exact",
-less one; "floor" is what that function or that value is uncertain by. "bound" says that the exact value is
-one from below. --write puts the measured errors there, for a change that is meant to alter them.
+less one; "floor" is what that function or that value is uncertain by. "bound" says that the exact value
+is one from below, "quick" that even fewer levels run with --levels. --write puts the measured errors there, for a change that is meant to alter them.
 """
 import argparse
 import json
@@ -37,19 +37,26 @@ def settings_of(case, level):
             for setting in case["settings"]]
 
 
-def error_of(mpm_par, case, method, level, folder):
-    """The error of one run; None if it broke down."""
+def results_of(mpm_par, case, method, level, folder):
+    """Where in `folder` the run's results are; None if it broke down. A run is made once."""
     settings = settings_of(case, level)
     settings += [f"numerics.{key}={value}" for key, value in zip(("shape_function", "scheme"),
                                                                  method.split())]
-    command = [str(mpm_par), str(SCENES / case["scene"]), "--output", str(folder)]
-    for setting in settings:
-        command += ["--set", setting]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode == 3:
+    results = folder / re.sub(r"[^\w.,=-]", "_", " ".join([case["scene"], *settings]))
+    if not results.exists():
+        command = [str(mpm_par), str(SCENES / case["scene"]), "--output", str(results)]
+        for setting in settings:
+            command += ["--set", setting]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode not in (0, 3):
+            raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+    return results if (results / "summary.json").exists() else None
+
+
+def error_of(case, level, folder):
+    """The error of the run whose results are in that folder; None if it broke down."""
+    if folder is None:
         return None
-    if done.returncode:
-        raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
     if "measure" in case:
         return measures.error(case, level, folder)
     return json.loads((folder / "summary.json").read_text())["exact_solution"][case["error"]]
@@ -64,7 +71,7 @@ def defects(case, method, known, measured):
             found.append(f"{where}: {'broke down' if now is None else 'ran'}, which it did not before")
         elif now is not None and abs(now) > WORSE * max(abs(before), case.get("floor", 0)):
             found.append(f"{where}: error {now:.3g}, more than {WORSE} times {before:.3g}")
-        elif now is not None and now < 0 and case.get("bound"):
+        elif now is not None and now < 0 <= before and case.get("bound"):
             found.append(f"{where}: {now:.3g} below what is a bound")
     return found
 
@@ -95,8 +102,11 @@ def main():
             if given.scene and Path(case["scene"]).stem not in given.scene:
                 continue
             levels = case["levels"][:given.levels]
+            if given.levels:
+                levels = levels[:case.get("quick")]
             for method, known in case["errors"].items():
-                measured = [error_of(given.mpm_par, case, method, level, Path(folder))
+                measured = [error_of(case, level, results_of(given.mpm_par, case, method, level,
+                                                             Path(folder)))
                             for level in levels]
                 sound = [error for error in measured if error is not None]
                 rates = orders(levels, sound) if len(sound) == len(levels) else []
@@ -104,7 +114,8 @@ def main():
                       " ".join("-" if error is None else f"{error:.3g}" for error in measured),
                       " order", " ".join(f"{rate:.2f}" for rate in rates), flush=True)
                 if given.write:
-                    case["errors"][method] = [error and float(f"{error:.4g}") for error in measured]
+                    case["errors"][method] = [
+                        error and float(f"{error:.4g}") for error in measured]
                 else:
                     found += defects(case, method, known, measured)
     if given.write:

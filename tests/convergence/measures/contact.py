@@ -15,3 +15,11 @@ def remaining_width(folder, level, gap, length, modulus):
     strain = numpy.interp(first - 1 + part, [first - 1, first], history["strain"][first - 1:first + 1])
     shortened = 1e-3 * (length - gap)  # blocks under that stress
     return (gap - strain * length + shortened) / length * level
+
+
+def early_contact(folder, level, time, speed, size):
+    """width between the bodies, in cells, when a hundredth of their kinetic energy is gone"""
+    history = History(folder)
+    energy = history["kinetic_energy"]
+    first = history["time"][numpy.argmax(energy < 0.99 * energy[0])]
+    return speed * (time - first) / size * level

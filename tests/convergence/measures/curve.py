@@ -16,7 +16,7 @@ def modulus(folder, level):
 
 
 def last_stress(folder, level, share=0.2):
-    """mean stress over the last fifth of the strain"""
+    """mean stress at the end of the curve"""
     history = History(folder)
     strain, stress = history["strain"], history["stress"]
     return stress[strain > (1 - share) * strain[-1]].mean()

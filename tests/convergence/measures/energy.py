@@ -20,3 +20,10 @@ def power(folder, level, rate, volume):
 def dead_load_stiffness(folder, level):
     """one over the elastic energy at rest under a load that is given"""
     return 1 / History(folder)["elastic_energy"][-1]
+
+
+def kept(folder, level):
+    """kinetic and elastic energy at the end over that at the start"""
+    history = History(folder)
+    energy = history["kinetic_energy"] + history["elastic_energy"]
+    return energy[-1] / energy[0]
