@@ -7,7 +7,7 @@ table.json holds, for each scene: its file, what `--set` makes of a level (`{2*n
 levels, and for each method the errors that they have. An error is a key of exact_solution in
 summary.json ("error"), or what a function of measures/ ("measure", "options") finds over what is "exact",
 less one; "floor" is what that function or that value is uncertain by. "bound" says that the exact value
-is one from below, "quick" that even fewer levels run with --levels. --write puts the measured errors there, for a change that is meant to alter them.
+is one from below, "quick" that even fewer levels run with --levels; "remark" is for the page. --write puts the measured errors there, for a change that is meant to alter them.
 """
 import argparse
 import json
@@ -27,7 +27,7 @@ WORSE = 1.10  # an error may grow by so much, not more
 
 def orders(levels, errors):
     """Of each pair of neighbours; h is 1 / level."""
-    return [math.log(abs(a / b)) / math.log(m / n)
+    return [math.log(abs(a / b)) / math.log(m / n) if a and b else math.nan
             for (n, a), (m, b) in zip(zip(levels, errors), list(zip(levels, errors))[1:])]
 
 

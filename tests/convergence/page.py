@@ -6,6 +6,7 @@ import json
 import sys
 from pathlib import Path
 
+import measures
 from ladders import SCENES, TABLE, orders
 
 PAGE = SCENES.parents[1] / "docs" / "verification.md"
@@ -41,24 +42,49 @@ def words_of(scene):
     return title, " ".join(comment)
 
 
-def section(case):
-    title, comment = words_of(case["scene"])
-    unit = " [m]" if case["error"] == "displacement_error" else ""
-    text = [f"## {title}", "", comment, "",
-            f"`inputs/benchmarks/{case['scene']}`, `--set {case['settings'][0]}`: "
-            f"`{case['error']}`{unit}", "",
-            "| shape function, scheme | " + " | ".join(f"n = {n}" for n in case["levels"]) +
-            " | orders |", "|---|" + "---|" * (len(case["levels"]) + 1)]
+def looked_at(case):
+    """What the numbers of the table are."""
+    if "measure" not in case:
+        return f"`{case['error']}`" + (" [m]" if case["error"] == "displacement_error" else "")
+    words = measures.words(case["measure"])
+    if measures.number(case["exact"]) == 0:
+        return words
+    bound = "its bound from below" if case.get("bound") else "the exact"
+    return f"{words}, over {bound} `{case['exact']}`, less one"
+
+
+def cell(case, error):
+    if error is None:
+        return "broke down"
+    if "measure" in case and measures.number(case["exact"]) != 0:
+        return f"{100 * error:+.2g} %" if abs(error) < 0.1 else f"{100 * error:+.0f} %"
+    return f"{error:.3g}"
+
+
+def section(case, before):
+    """A heading of its own, unless the case before had the same scene."""
+    text = []
+    if before is None or before["scene"] != case["scene"]:
+        title, comment = words_of(case["scene"])
+        text += [f"## {title}", "", comment, ""]
+    text += [f"`inputs/benchmarks/{case['scene']}`, `--set {case['settings'][0]}`: "
+             f"{looked_at(case)}", "",
+             "| shape function, scheme | " + " | ".join(f"n = {n}" for n in case["levels"]) +
+             " | orders |", "|---|" + "---|" * (len(case["levels"]) + 1)]
     for method, errors in case["errors"].items():
-        cells = ["broke down" if error is None else f"{error:.3g}" for error in errors]
         rates = [] if None in errors else orders(case["levels"], errors)
-        text.append(f"| {method.replace(' ', ', ')} | " + " | ".join(cells) + " | " +
+        text.append(f"| {method.replace(' ', ', ')} | " +
+                    " | ".join(cell(case, error) for error in errors) + " | " +
                     ", ".join(f"{rate:.2f}" for rate in rates) + " |")
+    if "remark" in case:
+        text += ["", case["remark"]]
     return "\n".join(text) + "\n"
 
 
 def main():
-    page = INTRODUCTION + "".join("\n" + section(case) for case in json.loads(TABLE.read_text()))
+    table = json.loads(TABLE.read_text())
+    page = INTRODUCTION + "".join("\n" + section(case, before)
+                                  for before, case in zip([None, *table], table))
     if "--check" not in sys.argv[1:]:
         PAGE.write_text(page)
     elif PAGE.read_text() != page:

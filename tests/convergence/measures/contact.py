@@ -1,7 +1,7 @@
 """When bodies in one velocity field begin to feel each other."""
 import numpy
 
-from measures import History
+from measures.history import History
 
 
 def remaining_width(folder, level, gap, length, modulus):

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy
 
-from measures import History
+from measures.history import History
 
 
 def modulus(folder, level):

@@ -1,7 +1,8 @@
 """What the energies of a run show."""
+
 import numpy
 
-from measures import History
+from measures.history import History
 
 
 def stiffness(folder, level, strain, volume):
