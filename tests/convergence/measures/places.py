@@ -44,3 +44,9 @@ def mean_expansion(folder, level):
     """mean growth of the particles' distances from the axis"""
     start, end = first_and_last(folder)
     return (numpy.hypot(end[:, 0], end[:, 1]) - numpy.hypot(start[:, 0], start[:, 1])).mean()
+
+
+def half_length(folder, level):
+    """half the distance between the outermost particles along z, and half a particle"""
+    start, end = first_and_last(folder)
+    return numpy.ptp(end[:, 2]) / 2 + start[:, 2].min()

@@ -65,18 +65,17 @@ def main():
         print(f"n {n}: C11/Es {c11:.6f} E/Es {e:.6f} nu {ratio:.5f}", flush=True)
     print("limit:", " ".join(f"{extrapolated(*column):.5f}" for column in zip(*moduli)))
     yield_stress = 1e-3
-    for confined in (False, True):
+    for kind, elastic, confined in (("free", moduli[-1][1], None), ("confined", moduli[-1][0], 0.0)):
+        strains = numpy.linspace(0, (4 if confined is None else 8) * t * t * yield_stress / elastic, 161)
         collapse = []
         for n in (2, 4, 8):
-            body = cell(t, n, nu, yield_stress)
-            elastic = moduli[-1][0 if confined else 1]
-            end = (8 if confined else 4) * t * t * yield_stress / elastic
-            found = loaded(body, numpy.linspace(0, end, 161)[1:], 0.0 if confined else None)
-            slope = numpy.polyfit(found[-6:, 2], numpy.linspace(0, end, 161)[-6:], 1)[0] \
-                if not confined else numpy.inf
+            found = loaded(cell(t, n, nu, yield_stress), strains[1:], confined)
             collapse.append(found[-1, 0] / yield_stress)
-            print(f"{'confined' if confined else 'free'} n {n}: stress/yield", found[::32, 0] /
-                  yield_stress, f"last {collapse[-1]:.5f}, rate along x {1 / slope:.4f}", flush=True)
+            rate = numpy.polyfit(strains[-6:], found[-6:, 2], 1)[0]
+            print(f"{kind}, n {n}: stress over yield stress {collapse[-1]:.5f}, strain rate along x "
+                  f"over that along y {rate:.4f}", flush=True)
+        if confined is None:
+            print(f"limit: {extrapolated(*collapse):.5f}")
 
 
 if __name__ == "__main__":
