@@ -3,11 +3,12 @@ and compares errors with those of table.json.
 
     ladders.py MPM_PAR [--scene NAME ...] [--levels N] [--write]
 
-table.json holds, for each scene: its file, what `--set` makes of a level (`{2*n}`: twice the level), the
-levels, and for each method the errors that they have. An error is a key of exact_solution in
-summary.json ("error"), or what a function of measures/ ("measure", "options") finds over what is "exact",
-less one; "floor" is what that function or that value is uncertain by. "bound" says that the exact value
-is one from below, "quick" that even fewer levels run with --levels; "remark" is for the page. --write puts the measured errors there, for a change that is meant to alter them.
+table.json holds, for each scene: its file, what `--set` makes of a level (`{2*n}`: twice the level),
+the levels, and for each method the errors that they have. An error is a key of exact_solution in
+summary.json ("error"), or what a function of measures/ ("measure", "options") finds over what is
+"exact", less one. "floor" is what that function or that value is uncertain by, "bound" says that the
+exact value is one from below, "quick" that even fewer levels run with --levels; "remark" is for the
+page. --write puts the measured errors there, for a change that is meant to alter them.
 """
 import argparse
 import json

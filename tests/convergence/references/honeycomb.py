@@ -16,7 +16,8 @@ from finite_elements import (Plane, extrapolated, four_sided, patch, towards_bot
 
 
 def cell(thickness, n, poisson_ratio, yield_stress=numpy.inf):
-    """Sides of length 1; n elements across half a wall, finer at the corners. Width sqrt(3)/2, height 3/2."""
+    """Sides of length 1; n elements across half a wall, finer at the corners. Width
+    sqrt(3)/2, height 3/2."""
     width, height, t = numpy.sqrt(3) / 2, 1.5, thickness
     p = numpy.array([width - t / 2, 0.5 - t / numpy.sqrt(12)])  # inner corner
     q = numpy.array([width, 0.5 + t / numpy.sqrt(3)])           # where both inclined walls meet
@@ -26,7 +27,8 @@ def cell(thickness, n, poisson_ratio, yield_stress=numpy.inf):
     wall = [patch(four_sided([foot[0], foot[1], m, p]), towards_both(2 * n),
                   1 - towards_start(max(1, round(p[1] / t)) * 2 * n)[::-1])]
     for a, b, c in ((p, m, q), (m, q, p), (q, p, m)):
-        wall.append(patch(four_sided([a, (a + b) / 2, centre, (a + c) / 2]), towards_start(n), towards_start(n)))
+        wall.append(patch(four_sided([a, (a + b) / 2, centre, (a + c) / 2]), towards_start(n),
+                          towards_start(n)))
     turned = [numpy.array([width, height]) - numpy.flip(x, axis=0)[..., :] for x in wall]
     far = numpy.array([width, height])
     length = 1 - t / numpy.sqrt(3)
@@ -66,7 +68,8 @@ def main():
     print("limit:", " ".join(f"{extrapolated(*column):.5f}" for column in zip(*moduli)))
     yield_stress = 1e-3
     for kind, elastic, confined in (("free", moduli[-1][1], None), ("confined", moduli[-1][0], 0.0)):
-        strains = numpy.linspace(0, (4 if confined is None else 8) * t * t * yield_stress / elastic, 161)
+        end = (4 if confined is None else 8) * t * t * yield_stress / elastic
+        strains = numpy.linspace(0, end, 161)
         collapse = []
         for n in (2, 4, 8):
             found = loaded(cell(t, n, nu, yield_stress), strains[1:], confined)

@@ -1,7 +1,7 @@
 """A thick-walled cylinder under the radial body force b = B/r, in plane strain, without hardening.
 
-For an incompressible solid this is Hill's cylinder under the pressure p = B ln(b/a) (1950, The Mathematical
-Theory of Plasticity, V.2): s_r = s_r(Hill) + B ln(r/b), so that the stress differences are the same:
+For an incompressible solid this is Hill's cylinder under the pressure p = B ln(b/a) (1950, The
+Mathematical Theory of Plasticity, V.2): s_r = s_r(Hill) + B ln(r/b), so that the stress differences are the same:
 p = 2k ln(c/a) + k (1 - c^2/b^2), k = yield stress / sqrt(3), c the radius up to which it flows, and
 u = k c^2 / (2 G r). Compressible solids, as in the scene, have no closed form.
 
