@@ -53,6 +53,16 @@ class References(unittest.TestCase):
                                  numpy.linspace(0, 5e-3, 21)[1:], 0.0)
         self.assertAlmostEqual(found[-1, 0] / 1e-3 / (2 / 3 * 0.3), 1, delta=2e-3)
 
+    def test_energy_of_the_bent_wall(self):
+        # The formula of bent_wall.yaml
+        length, t, nu = 0.02, 1e-3, 0.33
+        modulus, shear, load = 10.6e9 / (1 - nu**2), 10.6e9 / (2 + 2 * nu), 1500 * 1e4 * t
+        wave = 2 * numpy.pi / length
+        energy = 0.75 * load**2 * length / wave**4 / (modulus * t**3 / 12) * (
+            1 + modulus * t**2 * wave**2 / (36 * 5 / 6 * shear))
+        for scene in ("bent_wall", "bent_wall_inclined"):
+            self.assertAlmostEqual(exact(scene) * energy, 1, delta=1e-5)
+
 
 if __name__ == "__main__":
     unittest.main()
