@@ -82,7 +82,8 @@ def section(case, before):
              "| shape function, scheme | " + " | ".join(f"n = {n}" for n in case["levels"]) +
              " | orders |", "|---|" + "---|" * (len(case["levels"]) + 1)]
     for method, errors in case["errors"].items():
-        rates = [] if None in errors else orders(case["levels"], errors)
+        orderless = None in errors or max(map(abs, errors)) < case.get("floor", 0)
+        rates = [] if orderless else orders(case["levels"], errors)
         text.append(f"| {method.replace(' ', ', ')} | " +
                     " | ".join(cell(case, error) for error in errors) + " | " +
                     ", ".join(f"{rate:.2f}" for rate in rates) + " |")

@@ -50,3 +50,13 @@ def half_length(folder, level):
     """half the distance between the outermost particles along z, and half a particle"""
     start, end = first_and_last(folder)
     return numpy.ptp(end[:, 2]) / 2 + start[:, 2].min()
+
+
+def asymmetry(folder, level, centre):
+    """largest distance of a particle from its twin's place mirrored at the centre [m]"""
+    start, end = (places[:, :2] - centre for places in first_and_last(folder))
+    digits = numpy.round(start, 9)
+    one, twin = numpy.lexsort(digits.T), numpy.lexsort(-digits.T)
+    if not numpy.allclose(start[one], -start[twin]):
+        raise RuntimeError(f"{folder}: the particles do not start as mirror images")
+    return numpy.linalg.norm(end[one] + end[twin], axis=1).max()
