@@ -11,6 +11,7 @@ exact value is one from below, "quick" that even fewer levels run with --levels;
 page. --write puts the measured errors there, for a change that is meant to alter them.
 """
 import argparse
+import itertools
 import json
 import math
 import re
@@ -77,6 +78,27 @@ def defects(case, method, known, measured):
     return found
 
 
+def climb(given, case, folder):
+    """Runs the levels of a case with every method, prints the errors, and keeps or compares them."""
+    found = []
+    levels = case["levels"][:given.levels]
+    if given.levels:
+        levels = levels[:case.get("quick")]
+    for method, known in case["errors"].items():
+        measured = [error_of(case, level, results_of(given.mpm_par, case, method, level, folder))
+                    for level in levels]
+        sound = [error for error in measured if error is not None]
+        rates = orders(levels, sound) if len(sound) == len(levels) else []
+        print(f"{Path(case['scene']).stem:<22} {method:<16}",
+              " ".join("-" if error is None else f"{error:.3g}" for error in measured),
+              " order", " ".join(f"{rate:.2f}" for rate in rates), flush=True)
+        if given.write:
+            case["errors"][method] = [error and float(f"{error:.4g}") for error in measured]
+        else:
+            found += defects(case, method, known, measured)
+    return found
+
+
 def text_of(table):
     """As JSON: a line for each method."""
     cases = []
@@ -98,27 +120,12 @@ def main():
     given = arguments.parse_args()
     table = json.loads(TABLE.read_text())
     found = []
-    with tempfile.TemporaryDirectory() as folder:
-        for case in table:
-            if given.scene and Path(case["scene"]).stem not in given.scene:
-                continue
-            levels = case["levels"][:given.levels]
-            if given.levels:
-                levels = levels[:case.get("quick")]
-            for method, known in case["errors"].items():
-                measured = [error_of(case, level, results_of(given.mpm_par, case, method, level,
-                                                             Path(folder)))
-                            for level in levels]
-                sound = [error for error in measured if error is not None]
-                rates = orders(levels, sound) if len(sound) == len(levels) else []
-                print(f"{Path(case['scene']).stem:<22} {method:<16}",
-                      " ".join("-" if error is None else f"{error:.3g}" for error in measured),
-                      " order", " ".join(f"{rate:.2f}" for rate in rates), flush=True)
-                if given.write:
-                    case["errors"][method] = [
-                        error and float(f"{error:.4g}") for error in measured]
-                else:
-                    found += defects(case, method, known, measured)
+    for scene, cases in itertools.groupby(table, lambda case: Path(case["scene"]).stem):
+        if given.scene and scene not in given.scene:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            for case in cases:
+                found += climb(given, case, Path(folder))
     if given.write:
         TABLE.write_text(text_of(table))
     sys.exit("\n".join(found) if found else 0)
