@@ -14,7 +14,7 @@ build_packages="g++ make cmake pkg-config ca-certificates python3
   petsc-dev libhdf5-openmpi-dev libmetis-dev libeigen3-dev libgtest-dev libgmock-dev
   libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev libpugixml-dev nlohmann-json3-dev
   libudunits2-dev libmuparser-dev libstb-dev libtiff-dev"
-picture_packages="python3-yaml python3-numpy python3-h5py python3-matplotlib python3-paraview
+picture_packages="python3-yaml python3-numpy python3-scipy python3-h5py python3-matplotlib python3-paraview
   xvfb xauth libgl1-mesa-dri"
 benchmark_packages="libbenchmark-dev valgrind"
 

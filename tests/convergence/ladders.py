@@ -3,17 +3,24 @@ and compares errors with those of table.json.
 
     ladders.py MPM_PAR [--scene NAME ...] [--levels N] [--write]
 
-table.json holds, for each scene: its file, what `--set` makes of a level (`{n}`: the level), the error
-that is looked at (a key of exact_solution in summary.json), the levels, and for each method the errors
-that they have. --write puts the measured errors there, for a change that is meant to alter them.
+table.json holds, for each scene: its file, what `--set` makes of a level (`{2*n}`: twice the level),
+the levels, and for each method the errors that they have. An error is a key of exact_solution in
+summary.json ("error"), or what a function of measures/ ("measure", "options") finds over what is
+"exact", less one. "floor" is what that function or that value is uncertain by, "bound" says that the
+exact value is one from below, "quick" that even fewer levels run with --levels; "remark" is for the
+page. --write puts the measured errors there, for a change that is meant to alter them.
 """
 import argparse
+import itertools
 import json
 import math
+import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+import measures
 
 TABLE = Path(__file__).with_name("table.json")
 SCENES = Path(__file__).parents[2] / "inputs" / "benchmarks"
@@ -22,23 +29,38 @@ WORSE = 1.10  # an error may grow by so much, not more
 
 def orders(levels, errors):
     """Of each pair of neighbours; h is 1 / level."""
-    return [math.log(a / b) / math.log(m / n)
+    return [math.log(abs(a / b)) / math.log(m / n) if a and b else math.nan
             for (n, a), (m, b) in zip(zip(levels, errors), list(zip(levels, errors))[1:])]
 
 
-def error_of(mpm_par, case, method, level, folder):
-    """The error of one run; None if it broke down."""
-    settings = [setting.format(n=level) for setting in case["settings"]]
+def settings_of(case, level):
+    """For --set: what stands in braces is worked out."""
+    return [re.sub(r"{(.*?)}", lambda found: str(measures.number(found[1], n=level)), setting)
+            for setting in case["settings"]]
+
+
+def results_of(mpm_par, case, method, level, folder):
+    """Where in `folder` the run's results are; None if it broke down. A run is made once."""
+    settings = settings_of(case, level)
     settings += [f"numerics.{key}={value}" for key, value in zip(("shape_function", "scheme"),
                                                                  method.split())]
-    command = [str(mpm_par), str(SCENES / case["scene"]), "--output", str(folder)]
-    for setting in settings:
-        command += ["--set", setting]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode == 3:
+    results = folder / re.sub(r"[^\w.,=-]", "_", " ".join([case["scene"], *settings]))
+    if not results.exists():
+        command = [str(mpm_par), str(SCENES / case["scene"]), "--output", str(results)]
+        for setting in settings:
+            command += ["--set", setting]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode not in (0, 3):
+            raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+    return results if (results / "summary.json").exists() else None
+
+
+def error_of(case, level, folder):
+    """The error of the run whose results are in that folder; None if it broke down."""
+    if folder is None:
         return None
-    if done.returncode:
-        raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+    if "measure" in case:
+        return measures.error(case, level, folder)
     return json.loads((folder / "summary.json").read_text())["exact_solution"][case["error"]]
 
 
@@ -49,8 +71,31 @@ def defects(case, method, known, measured):
         where = f"{case['scene']}, {method}, level {level}"
         if (before is None) != (now is None):
             found.append(f"{where}: {'broke down' if now is None else 'ran'}, which it did not before")
-        elif now is not None and now > WORSE * before:
-            found.append(f"{where}: error {now:.3g}, {now / before - 1:.0%} above {before:.3g}")
+        elif now is not None and abs(now) > WORSE * max(abs(before), case.get("floor", 0)):
+            found.append(f"{where}: error {now:.3g}, more than {WORSE} times {before:.3g}")
+        elif now is not None and now < 0 <= before and case.get("bound"):
+            found.append(f"{where}: {now:.3g} below what is a bound")
+    return found
+
+
+def climb(given, case, folder):
+    """Runs the levels of a case with every method, prints the errors, and keeps or compares them."""
+    found = []
+    levels = case["levels"][:given.levels]
+    if given.levels:
+        levels = levels[:case.get("quick")]
+    for method, known in case["errors"].items():
+        measured = [error_of(case, level, results_of(given.mpm_par, case, method, level, folder))
+                    for level in levels]
+        sound = [error for error in measured if error is not None]
+        rates = orders(levels, sound) if len(sound) == len(levels) else []
+        print(f"{Path(case['scene']).stem:<22} {method:<16}",
+              " ".join("-" if error is None else f"{error:.3g}" for error in measured),
+              " order", " ".join(f"{rate:.2f}" for rate in rates), flush=True)
+        if given.write:
+            case["errors"][method] = [error and float(f"{error:.4g}") for error in measured]
+        else:
+            found += defects(case, method, known, measured)
     return found
 
 
@@ -75,23 +120,12 @@ def main():
     given = arguments.parse_args()
     table = json.loads(TABLE.read_text())
     found = []
-    with tempfile.TemporaryDirectory() as folder:
-        for case in table:
-            if given.scene and Path(case["scene"]).stem not in given.scene:
-                continue
-            levels = case["levels"][:given.levels]
-            for method, known in case["errors"].items():
-                measured = [error_of(given.mpm_par, case, method, level, Path(folder))
-                            for level in levels]
-                sound = [error for error in measured if error is not None]
-                rates = orders(levels, sound) if len(sound) == len(levels) else []
-                print(f"{Path(case['scene']).stem:<22} {method:<16}",
-                      " ".join("-" if error is None else f"{error:.3g}" for error in measured),
-                      " order", " ".join(f"{rate:.2f}" for rate in rates), flush=True)
-                if given.write:
-                    case["errors"][method] = [error and float(f"{error:.4g}") for error in measured]
-                else:
-                    found += defects(case, method, known, measured)
+    for scene, cases in itertools.groupby(table, lambda case: Path(case["scene"]).stem):
+        if given.scene and scene not in given.scene:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            for case in cases:
+                found += climb(given, case, Path(folder))
     if given.write:
         TABLE.write_text(text_of(table))
     sys.exit("\n".join(found) if found else 0)
