@@ -118,6 +118,15 @@ void NodeFields<Dim>::end_refinement(Runs runs)
 }
 
 template <int Dim>
+void NodeFields<Dim>::divergence_from_remap(Runs runs)
+{
+  for_each_node(runs, [&](LocalIndex node) {
+    remapped_momentum[std::size_t(node) * remap_width] *=
+        is_active(node) ? 1.0 / mass_of(node) : 0.0;
+  });
+}
+
+template <int Dim>
 void NodeFields<Dim>::set_gradient_velocity(LocalIndex node, int component, double value)
 {
   double* v = gradient_velocity_of(node);

@@ -95,6 +95,9 @@ void check_run(const Checked& checked)
 
   const Numerics& numerics = scene.numerics;
   check_stability(checked);
+  if (numerics.f_bar && numerics.plane == Plane::stress)
+    checked.refuse("numerics.f_bar", "in plane stress the thickness follows, and nothing locks",
+                   "Leave it out");
   if (numerics.decomposition == DecompositionKind::metis && checked.given("numerics.ranks"))
     checked.refuse("numerics.ranks", "METIS makes no process grid", "Use decomposition: cuts");
 

@@ -44,6 +44,9 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
           .when({[](const N& n) { return n.scheme->refines; }, "scheme: fmpm"}),
       member<N>("update_order", &N::update_order, {},
                 "stress from re-mapped velocities (musl), before (usf) or after (usl) the forces"),
+      member<N>("f_bar", &N::f_bar, {},
+                "volumetric increments averaged around every node, against locking near Poisson's "
+                "ratio 1/2; not in plane stress"),
       member<N>("cfl", &N::cfl,
                 {.bound = {End{0, false}, End{3, true}},
                  .default_text = "by shape function and update order"},

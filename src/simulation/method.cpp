@@ -20,9 +20,9 @@ double default_cfl(const scene::Numerics& numerics)
   return numerics.shape_function->cfl_share * *stable;
 }
 
-int refinements_of(const scene::Numerics& numerics)
+StepExtras extras_of(const scene::Numerics& numerics)
 {
-  return numerics.scheme->refines ? numerics.fmpm_order - 1 : 0;
+  return {numerics.scheme->refines ? numerics.fmpm_order - 1 : 0, numerics.f_bar};
 }
 
 template <int Dim>
@@ -42,7 +42,8 @@ template <int Dim>
 std::unique_ptr<Transfer<Dim>> make_transfer(const scene::Numerics& numerics,
                                              int particles_per_cell)
 {
-  return make_transfer<Dim>(numerics.shape_function, numerics.scheme, particles_per_cell);
+  return make_transfer<Dim>(numerics.shape_function, numerics.scheme, particles_per_cell,
+                            numerics.f_bar);
 }
 
 template <int Dim>

@@ -259,7 +259,7 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
   auto& setup = model.setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
   setup.order = scene.numerics.update_order;
-  setup.refinements = refinements_of(scene.numerics);
+  setup.extras = extras_of(scene.numerics);
   setup.slots.loads = loads_of<Dim>(scene);
   setup.mass_cut = 1e-24 * layout.largest_particle_mass;
   const Lattice<Dim> lattice = specimen.lattice(nearby(specimen.whole(), layout, decomposition));

@@ -105,7 +105,7 @@ std::string plan_text(const Preparation<Dim>& preparation)
   const UpdateOrderRow& order = *scene.numerics.update_order;
   const double per_particle = bytes_per_particle(scene, *transfer);
   const double per_node = NodeFields<Dim>::bytes_per_node(
-      {order.remaps || refinements_of(scene.numerics) > 0, !scene.loads.empty()});
+      {order.remaps || extras_of(scene.numerics).remap(), !scene.loads.empty()});
   const double nodes = layout.geometry.nodes.template cast<double>().prod();
 
   std::string text;

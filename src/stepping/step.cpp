@@ -15,7 +15,7 @@ void Step<Dim>::update_velocity(double dt)
       condition->constrain_updated(grid(), field, time(), dt);
     slots.loads.book(grid(), field, dt);
   }
-  if (refinements > 0) refine_velocity(dt);
+  if (extras.refinements > 0) refine_velocity(dt);
 }
 
 /// What a condition takes from a residual is an impulse of its wall: the nodes keep its velocity,
@@ -25,7 +25,7 @@ void Step<Dim>::refine_velocity(double dt)
 {
   using Fields = NodeFields<Dim>;
   for (Fields& field : fields) field.begin_refinement(grid().runs());
-  for (int k = 0; k < refinements; ++k) {
+  for (int k = 0; k < extras.refinements; ++k) {
     for (Fields& field : fields) field.reset_remap(grid().runs());
     exchange.pass_and_sum(bodies, columns({&Fields::remap_column}), moment,
                           [&](const BodyPart<Dim>& part) {
@@ -47,6 +47,19 @@ void Step<Dim>::constrain_gradient(double dt)
   for (NodeFields<Dim>& field : fields)
     for (const auto& condition : slots.conditions)
       condition->constrain_gradient(grid(), field, time(), dt);
+}
+
+template <int Dim>
+void Step<Dim>::average_divergence()
+{
+  using Fields = NodeFields<Dim>;
+  if (!extras.f_bar) return;
+  for (Fields& field : fields) field.reset_remap(grid().runs());
+  exchange.pass_and_sum(bodies, columns({&Fields::remap_column}), moment,
+                        [&](const BodyPart<Dim>& part) {
+                          return transfer.divergence(part, grid(), fields_of(part));
+                        });
+  for (Fields& field : fields) field.divergence_from_remap(grid().runs());
 }
 
 template <int Dim>

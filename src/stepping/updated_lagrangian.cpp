@@ -18,7 +18,7 @@ template <int Dim>
 void UpdatedLagrangian<Dim>::connect(Decomposition<Dim> decomposition)
 {
   exchange_ = std::make_unique<Exchange<Dim>>(std::move(decomposition), *setup_.transfer);
-  const typename NodeFields<Dim>::Needs needs{setup_.order->remaps || setup_.refinements > 0,
+  const typename NodeFields<Dim>::Needs needs{setup_.order->remaps || setup_.extras.remap(),
                                               !setup_.slots.loads.empty()};
   int fields = 1;
   for (const Body<Dim>& body : setup_.bodies) fields = std::max(fields, body.field + 1);
@@ -41,8 +41,8 @@ void UpdatedLagrangian<Dim>::connect(Decomposition<Dim> decomposition)
 template <int Dim>
 Step<Dim> UpdatedLagrangian<Dim>::next_step()
 {
-  return {*exchange_,   *setup_.transfer,   setup_.bodies,      fields_,
-          setup_.slots, setup_.refinements, {steps_ + 1, time_}};
+  return {*exchange_,   *setup_.transfer, setup_.bodies,      fields_,
+          setup_.slots, setup_.extras,    {steps_ + 1, time_}};
 }
 
 template <int Dim>

@@ -1,7 +1,7 @@
 """Runs scenes with an exact solution on finer and finer grids, for every shape function and scheme,
 and compares errors with those of table.json.
 
-    ladders.py MPM_PAR [--scene NAME ...] [--levels N] [--write]
+    ladders.py MPM_PAR [--scene NAME ...] [--method NAME ...] [--levels N] [--write]
 
 table.json holds, for each scene: its file, what `--set` makes of a level (`{2*n}`: twice the level),
 the levels, and for each method the errors that they have. An error is a key of exact_solution in
@@ -85,6 +85,8 @@ def climb(given, case, folder):
     if given.levels:
         levels = levels[:case.get("quick")]
     for method, known in case["errors"].items():
+        if given.method and method not in given.method:
+            continue
         measured = [error_of(case, level, results_of(given.mpm_par, case, method, level, folder))
                     for level in levels]
         sound = [error for error in measured if error is not None]
@@ -115,6 +117,7 @@ def main():
                                         formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("mpm_par", type=Path)
     arguments.add_argument("--scene", nargs="+", help="names without .yaml; all unless given")
+    arguments.add_argument("--method", nargs="+", help="such as 'gimp flip'; all unless given")
     arguments.add_argument("--levels", type=int, help="only so many, the coarsest")
     arguments.add_argument("--write", action="store_true")
     given = arguments.parse_args()

@@ -122,7 +122,7 @@ class BlockRun {
     }
     constexpr double volume = 0.25 * cell * cell;
     UpdatedLagrangian<2>::Setup setup{std::move(transfer), method.order, std::move(bodies)};
-    setup.refinements = method.scheme->refines ? 3 : 0;
+    setup.extras.refinements = method.scheme->refines ? 3 : 0;
     setup.slots.conditions = std::move(conditions);
     setup.mass_cut = 1e-12 * density * volume;
     return std::make_unique<UpdatedLagrangian<2>>(decomposition_, std::move(setup));

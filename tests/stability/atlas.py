@@ -56,7 +56,7 @@ def settings_of(table, case, method):
                 f"numerics.update_order={order}", "output.fields=[volume_ratio, velocity]",
                 *case.get("settings", [])]
     if "share_of_limit" in case:
-        cfl = min(2, case["share_of_limit"] * table["limits"][method])  # a scene takes none above 2
+        cfl = min(3, case["share_of_limit"] * table["limits"][method])  # a scene takes none above 3
         settings.append(f"numerics.cfl={cfl:.6g}")
     return settings
 

@@ -35,7 +35,7 @@ class NodeFields {
 
   /// What an update order needs beside mass, momentum, force and velocities.
   struct Needs {
-    bool remap = false;       ///< re-mapped momentum, also in refinements
+    bool remap = false;       ///< re-mapped momentum, also in refinements and means
     bool load_force = false;  ///< force from outside, for its work
   };
 
@@ -63,6 +63,9 @@ class NodeFields {
   /// left. `gradient_velocity` holds v_k in between.
   void refine(Runs runs);
   void end_refinement(Runs runs);
+  /// The re-mapped momentum's first component, a mass times a divergence, becomes that divergence,
+  /// 1/s: the mean around the node.
+  void divergence_from_remap(Runs runs);
   /// `gradient_velocity` becomes momentum / m (USF), re-mapped momentum / m (MUSL), or the updated
   /// velocity (USL).
   void gradient_from_momentum(Runs runs);

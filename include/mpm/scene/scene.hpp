@@ -116,6 +116,7 @@ struct Numerics {
   OneOf<SchemeRow> scheme = "flip";
   int fmpm_order = 4;  ///< of a scheme that refines the grid's velocity
   OneOf<UpdateOrderRow> update_order = "musl";
+  bool f_bar = false;         ///< the stress sees means of the divergence
   std::optional<double> cfl;  ///< default depends on shape function and update order
   DecompositionKind decomposition = DecompositionKind::automatic;
   PerAxis<int> ranks{};          ///< process grid of cuts; 0: chosen

@@ -13,8 +13,7 @@ namespace mpm {
 /// Of its shape function, scheme and update order together.
 std::optional<double> stable_cfl_of(const scene::Numerics& numerics);
 double default_cfl(const scene::Numerics& numerics);
-/// Of the grid's velocity in a step.
-int refinements_of(const scene::Numerics& numerics);
+StepExtras extras_of(const scene::Numerics& numerics);
 template <int Dim>
 TimeStep time_step_of(const Layout<Dim>& layout);
 /// At least, or where the scene ends the run before: compression makes steps shorter on the way.

@@ -8,6 +8,14 @@
 
 namespace mpm {
 
+/// What a step does beside what its order says.
+struct StepExtras {
+  int refinements = 0;  ///< of the updated velocity, for a scheme that refines
+  bool f_bar = false;   ///< the stress sees means of the divergence
+  /// Whether the nodes hold a re-mapped momentum for them.
+  bool remap() const { return refinements > 0 || f_bar; }
+};
+
 /// Everything that a step works on. A body moves in the velocity field that it names.
 template <int Dim>
 struct Step {
@@ -18,7 +26,7 @@ struct Step {
   std::vector<Body<Dim>>& bodies;
   std::vector<NodeFields<Dim>>& fields;
   Slots<Dim>& slots;
-  int refinements;  ///< of the updated velocity; 0 unless the scheme refines
+  const StepExtras& extras;
   Moment moment;
 
   const GridTopology<Dim>& grid() const { return exchange.topology(); }
@@ -29,6 +37,9 @@ struct Step {
   void update_velocity(double dt);
   /// Velocities whose gradient is taken, at time() + dt: contact and conditions.
   void constrain_gradient(double dt);
+  /// F-bar, once the gradient velocities stand: the mean of their divergence around every node,
+  /// over the particles by mass, is what particles take in the stress update in place of their own.
+  void average_divergence();
   /// Every field's sums become zero.
   void reset();
 

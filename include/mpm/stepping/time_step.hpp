@@ -8,9 +8,8 @@
 namespace mpm {
 
 /// dt = CFL h / (c + |v|) with the fastest wave c and the largest speed |v| of all particles as
-/// they are, at least those of the start; in which no particle crosses more than half a cell; and no
-/// longer than loads, contact and transport bear.
-/// Plan, run and history ask the same object.
+/// they are, at least those of the start; in which no particle crosses more than half a cell; and
+/// no longer than loads, contact and transport bear. Plan, run and history ask the same object.
 class TimeStep {
  public:
   /// `spacing`: the smallest, m; `wave_speed` of the stiffest body and `speed` at the start, m/s.

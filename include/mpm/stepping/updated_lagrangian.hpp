@@ -21,7 +21,7 @@ class UpdatedLagrangian final : public Formulation<Dim> {
     std::vector<Body<Dim>> bodies;
     Slots<Dim> slots{};
     double mass_cut = 0;  ///< kg; nodes with less are not active
-    int refinements = 0;  ///< of the grid's velocity in a step
+    StepExtras extras{};
   };
 
   UpdatedLagrangian(Decomposition<Dim> decomposition, Setup setup);

@@ -77,6 +77,45 @@ template <int Dim, class Shape>
   }
 }
 
+/// Divergence, 1/s, of a velocity gradient as `gather_gradient` leaves it.
+template <int Dim>
+[[gnu::always_inline]] inline Lanes trace_of(const double* gradient)
+{
+  Lanes trace = 0.0;
+  for (int d = 0; d < Dim; ++d) trace += load(gradient + d * (Dim + 1) * lane_count);
+  return trace;
+}
+
+/// Gives a velocity gradient the divergence of the nodes (NodeFields::divergence_from_remap).
+template <int Dim, class Shape>
+[[gnu::noinline]] void take_divergence(const Stencil<Dim, Shape>& stencil,
+                                       const GridTopology<Dim>& grid, const NodeFields<Dim>& fields,
+                                       double* gradient)
+{
+  constexpr int n = Shape::support, layers = Dim == 3 ? n : 1;
+  const auto& w = stencil.weight;
+  const Lanes averaged([&](int lane) {
+    double sum = 0;
+    for (int c = 0; c < layers; ++c)
+      for (int b = 0; b < n; ++b)
+        for (int a = 0; a < n; ++a) {
+          std::size_t node = std::size_t(stencil.base[lane]) + b * std::size_t(grid.stride(1)) + a;
+          double weight = w[0][a][lane] * w[1][b][lane];
+          if constexpr (Dim == 3) {
+            node += c * std::size_t(grid.stride(2));
+            weight *= w[2][c][lane];
+          }
+          sum += weight * fields.remapped_momentum[node * NodeFields<Dim>::remap_width];
+        }
+    return sum;
+  });
+  const Lanes share = (averaged - trace_of<Dim>(gradient)) / double(Dim);
+  for (int d = 0; d < Dim; ++d) {
+    double* diagonal = gradient + d * (Dim + 1) * lane_count;
+    store(load(diagonal) + share, diagonal);
+  }
+}
+
 /// Sum w {v, dv} of the updated velocities; with `Affine` also C_ij = sum v_i c_j at i + Dim * j,
 /// c the affine weights.
 template <bool Affine, int Dim, class Shape>

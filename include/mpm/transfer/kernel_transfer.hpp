@@ -26,7 +26,7 @@ class KernelTransfer final : public Transfer<Dim> {
   using Columns = MotionColumns<Dim, Scheme>;
 
  public:
-  explicit KernelTransfer(Shape shape) : shape_(shape) {}
+  KernelTransfer(Shape shape, bool f_bar) : shape_(shape), f_bar_(f_bar) {}
 
   std::vector<Column> motion_columns(bool musl) const override { return Columns::columns(musl); }
   int support() const override { return Shape::support; }
@@ -78,6 +78,26 @@ class KernelTransfer final : public Transfer<Dim> {
                                                                            nullptr);
     else
       throw std::logic_error("this scheme refines no velocity");
+  }
+
+  PassOutcome<Dim> divergence(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                              NodeFields<Dim>& fields) const override
+  {
+    const GridFrame<Dim> frame(grid);
+    Scatter<Dim, Shape, ScatterContent{.remap = true}> scatter(grid, fields);
+    alignas(lane_alignment) double gradient[Dim * Dim * lane_count];
+    for (LocalIndex b = part.first; b < part.end; ++b) {
+      const double* motion = part.body.particles.motion().block(b);
+      Lanes x[Dim], weighted[Dim], no_affine[Dim * Dim];
+      load_all(motion, Columns::position, x);
+      const Stencil<Dim, Shape> stencil(x, frame, shape_);
+      gather_gradient(stencil, grid, fields, gradient);
+      const Lanes mass = load(motion + Columns::mass * lane_count);
+      for (Lanes& component : weighted) component = 0.0;
+      weighted[0] = mass * trace_of<Dim>(gradient);
+      scatter.template add<false>(stencil, mass, weighted, nullptr, no_affine);
+    }
+    return {};
   }
 
   PassOutcome<Dim> musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
@@ -168,7 +188,10 @@ class KernelTransfer final : public Transfer<Dim> {
     for (LocalIndex b = first; b < std::min(first + chunk, end); ++b) {
       Lanes x[Dim];
       load_all(particles.motion().block(b), Columns::position, x);
-      gather_gradient(Stencil<Dim, Shape>(x, frame, shape_), grid, fields, gradient);
+      const Stencil<Dim, Shape> stencil(x, frame, shape_);
+      gather_gradient(stencil, grid, fields, gradient);
+      if (f_bar_) [[unlikely]]
+        take_divergence(stencil, grid, fields, gradient);
       gradient += Dim * Dim * lane_count;
     }
   }
@@ -338,6 +361,7 @@ class KernelTransfer final : public Transfer<Dim> {
   }
 
   Shape shape_;
+  bool f_bar_;
 };
 
 }  // namespace mpm

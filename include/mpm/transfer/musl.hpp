@@ -22,6 +22,7 @@ struct Musl {
         });                                                                    // (mv)_i
     for (Fields& field : s.fields) field.gradient_from_remap(s.grid().runs());
     s.constrain_gradient(dt);
+    s.average_divergence();
 
     s.reset();
     s.exchange.move_and_sum(

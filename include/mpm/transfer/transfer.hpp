@@ -93,6 +93,11 @@ class Transfer {
   virtual PassOutcome<Dim> refine_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                            NodeFields<Dim>& fields) const = 0;
 
+  /// P2G of the mass times the divergence of the gradient velocity, in the place of a re-mapped
+  /// momentum's first component. No state changes.
+  virtual PassOutcome<Dim> divergence(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                      NodeFields<Dim>& fields) const = 0;
+
   // MUSL, two passes.
   /// G2P of the velocity at the old place, and its momentum back to the same nodes.
   virtual PassOutcome<Dim> musl_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
@@ -115,9 +120,11 @@ class Transfer {
                                const MoveBounds<Dim>& bounds) const = 0;
 };
 
-/// `particles_per_cell` per direction sets the particle domain of uniform GIMP.
+/// `particles_per_cell` per direction sets the particle domain of uniform GIMP. With `f_bar` the
+/// velocity gradients that the stress sees have the divergence that the nodes hold
+/// (NodeFields::divergence_from_remap) in place of their own.
 template <int Dim>
 std::unique_ptr<Transfer<Dim>> make_transfer(OneOf<ShapeRow> shape, OneOf<SchemeRow> scheme,
-                                             int particles_per_cell);
+                                             int particles_per_cell, bool f_bar = false);
 
 }  // namespace mpm

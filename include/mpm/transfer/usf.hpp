@@ -17,6 +17,7 @@ struct Usf {
     using Fields = typename Step::Fields;
     for (Fields& field : s.fields) field.gradient_from_momentum(s.grid().runs());
     s.constrain_gradient(0);
+    s.average_divergence();
     s.exchange.pass_and_sum(
         s.bodies, s.columns({&Fields::force_column}), s.moment, [&](const auto& part) {
           return s.transfer.usf_stress(part, s.grid(), s.fields_of(part), dt);  // sigma_p; f_i

@@ -17,6 +17,7 @@ struct Usl {
     using Fields = typename Step::Fields;
     s.update_velocity(dt);
     for (Fields& field : s.fields) field.gradient_from_updated(s.grid().runs());
+    s.average_divergence();
 
     s.reset();
     s.exchange.move_and_sum(

@@ -45,9 +45,9 @@ struct Cloud {
   typename NaiveTransfer<Dim>::Nodes nodes;
   std::mt19937 random{5};
 
-  explicit Cloud(TransferCase c, bool musl = false)
+  explicit Cloud(TransferCase c, bool musl = false, bool f_bar = false)
       : parameters(c),
-        transfer(make_transfer<Dim>(c.shape, c.scheme, particles_per_cell)),
+        transfer(make_transfer<Dim>(c.shape, c.scheme, particles_per_cell, f_bar)),
         grid(geometry(), local(), local(), 0),
         body{"cloud", 0, 1.0, std::make_unique<RecordingLaw<Dim>>(), store(musl)},
         naive{{c.shape, 0.5 / particles_per_cell}, c.scheme, geometry().spacing}
