@@ -48,6 +48,13 @@ std::string likely_cause(const Preparation<Dim>& preparation, GlobalIndex partic
   if (was_thin(preparation, particle))
     return " Likely cause: the wall is thinner than two cells where this particle was at the "
            "start. Refine grid.cells.";
+  if (std::holds_alternative<scene::FreeMotion>(preparation.scene.motion) &&
+      numerics.scheme->book == ReactionBook::increments)
+    return fmt::format(
+        " Likely cause: noise of particles that cross cells, which {} keeps and which grows in "
+        "free "
+        "flight and rotation. Take gimp or quadratic with scheme apic or tpic.",
+        numerics.scheme->keyword);
   return "";
 }
 

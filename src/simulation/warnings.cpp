@@ -19,6 +19,8 @@ constexpr double quasi_static_speed = 0.01;
 /// A sudden start sends a wave of this strain through the specimen.
 constexpr double sudden_strain = 1e-3;
 constexpr double many_steps = 1e8;
+/// Poisson's ratio from which a beam of four cells is half as stiff again as it should be, or more.
+constexpr double locking_ratio = 0.45;
 /// In cells: noise has grown tenfold or more (docs/stability.md).
 constexpr double long_flight = 30;
 
@@ -128,6 +130,22 @@ void look_at_order(const scene::Numerics& numerics, Warnings& warnings)
         numerics.shape_function->keyword, order.keyword));
 }
 
+/// What cannot change its volume cell by cell bends too stiffly.
+void look_at_locking(const scene::Scene& scene, Warnings& warnings)
+{
+  if (scene.numerics.f_bar || scene.numerics.plane == scene::Plane::stress) return;
+  for (const scene::Material& material : scene.materials) {
+    if (!material.law->has("poisson_ratio")) continue;
+    const double ratio = material.values.number("poisson_ratio");
+    if (ratio <= locking_ratio) continue;
+    warnings.push_back(
+        fmt::format("Poisson's ratio of '{}', {:.4g}, is near 1/2: where walls are few cells thick "
+                    "it locks and "
+                    "bends too stiffly. Set numerics.f_bar: true.",
+                    material.name, ratio));
+  }
+}
+
 /// Particles that take increments keep the noise that crossing cells makes.
 template <int Dim>
 void look_at_flight(const scene::Scene& scene, const Layout<Dim>& layout, Warnings& warnings)
@@ -158,6 +176,7 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
   look_at_walls(scene, specimen, share, warnings);
   look_at_speed(scene, specimen, layout, warnings);
   look_at_order(scene.numerics, warnings);
+  look_at_locking(scene, warnings);
   look_at_flight(scene, layout, warnings);
   if (std::holds_alternative<scene::Loading>(scene.motion))
     look_at_reach(scene, specimen, layout, share, warnings);

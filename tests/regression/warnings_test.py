@@ -114,6 +114,13 @@ class Warnings(ProgramTest):
         self.assertEqual(self.warnings(WHOLE, linear), [])
         self.assertEqual(self.warnings(WHOLE, "numerics.update_order=usf"), [])
 
+    def test_near_incompressible_material(self):
+        nearly = "material.poisson_ratio=0.49"
+        self.assert_only(self.warnings(WHOLE, nearly), "locks", "numerics.f_bar: true")
+        self.assertEqual(self.warnings(WHOLE, nearly, "numerics.f_bar=true"), [])
+        self.assertEqual(self.warnings(WHOLE, nearly, "numerics.plane=stress"), [])
+        self.assertEqual(self.warnings(WHOLE, "material.poisson_ratio=0.45"), [])
+
     def test_a_long_run(self):
         self.assert_only(self.check_only("loading.speed=1e-4 m/s", "steps=200000000"),
                          "1.8e+08 steps", "grid.cells")

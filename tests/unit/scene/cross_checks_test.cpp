@@ -135,6 +135,14 @@ TEST_F(CrossChecks, StressLastWithLinearShapeFunctions)
   EXPECT_TRUE(problems(smallest + usl + "gimp}\n").empty());
 }
 
+TEST_F(CrossChecks, FBarInPlaneStress)
+{
+  EXPECT_THAT(problems(smallest + "numerics: {plane: stress, f_bar: true}\n"),
+              ElementsAre("a.yaml:7:34: numerics.f_bar is 'true' (in plane stress the thickness "
+                          "follows, and nothing locks). Leave it out."));
+  EXPECT_TRUE(problems(smallest + "numerics: {f_bar: true}\n").empty());
+}
+
 TEST_F(CrossChecks, RefinedVelocitiesWithStressLast)
 {
   const std::string usl = "numerics: {update_order: usl, scheme: ";
