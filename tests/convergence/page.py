@@ -28,14 +28,14 @@ What the tables say:
 
 - linear shape functions converge until particles cross cells, and then get worse; beyond full density
   they lose stress that the solid alone would carry;
-- gimp and quadratic converge with second order until the quadrature of fixed domains ends it;
-- quadratic is of first order where a body touches a wall, as its functions there are not those of a
-  boundary; where nothing touches a wall (ring, vortex) it is as good as gimp or better;
+- gimp and quadratic converge with second order until the quadrature of fixed domains ends it; cubic
+  goes on to errors four times smaller;
+- splines are cut off at walls at rest and converge with second order there too;
 - pic loses energy with every step and converges with first order;
 - apic and tpic are the most accurate for smooth motion; flip keeps the energy, but not the angular
   momentum, and does not always come to rest under a load that lasts (cantilever);
 - a mirror side is none to functions that reach through it: the layer next to a side is strained too
-  little with gimp and quadratic functions (Taylor bars), and rings beside a side that moves;
+  little with gimp (Taylor bars), and rings beside a side that moves;
 - moduli of honeycombs are within 1.5 % of those of the plane solid at 32 cells per wall, and within 9 %
   at four; plastic hinges are slower, 2 to 5 % at 32 cells per wall and 12 to 28 % at four;
 - lumens close 0.7 to 2 cells too early, whatever the grid: beyond full density the stress is 28 % too
