@@ -62,6 +62,19 @@ void Loads<Dim>::book(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, do
 }
 
 template <int Dim>
+void Loads<Dim>::book_residual(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt)
+{
+  if (loads_.empty()) return;
+  for (const NodeRun<Dim>& run : grid.runs())
+    for (LocalIndex node = run.first; node < run.first + run.length; ++node) {
+      if (!grid.is_owned(node) || !fields.is_active(node)) continue;
+      const double* u = fields.updated_of(node);
+      for (int d = 0; d < Dim; ++d)
+        reaction_.work += dt * fields.load_force[std::size_t(node) * Dim + d] * u[Dim + d];
+    }
+}
+
+template <int Dim>
 double Loads<Dim>::largest_step() const
 {
   double step = std::numeric_limits<double>::infinity();

@@ -36,6 +36,7 @@ void Step<Dim>::refine_velocity(double dt)
       for (const auto& condition : slots.conditions)
         condition->constrain_updated(grid(), field, time(), dt);
       field.end_refinement(grid().runs());
+      slots.loads.book_residual(grid(), field, dt);
     }
   }
 }

@@ -30,6 +30,9 @@ class Loads {
   /// velocity of the step; of owned nodes.
   void book(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt);
 
+  /// Work on the residual velocity that a refinement (NodeFields::refine) has added.
+  void book_residual(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt);
+
   Reaction<Dim> take_reaction() { return reaction_.take(); }
   double largest_step() const;
   void archive(Archive& archive) { reaction_.archive(archive); }
