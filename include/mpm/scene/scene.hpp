@@ -28,7 +28,7 @@ using Plane = PlaneAssumption;
 struct Material {
   std::string name = "cell_wall";
   OneOf<LawRow> law = "von_mises";
-  ParameterValues values;
+  ParameterValues values{};
   /// kg/m^3; 0 for a law without one.
   double density() const { return values.has("density") ? values.number("density") : 0; }
   bool operator==(const Material&) const = default;
@@ -171,7 +171,7 @@ struct FreeMotion {
 /// The keys beside `kind` are the load's own (conditions/load_rows.hpp).
 struct Load {
   OneOf<LoadRow> kind;
-  ParameterValues values;
+  ParameterValues values{};
   bool operator==(const Load&) const = default;
 };
 

@@ -114,7 +114,7 @@ void press(const char* name, const Transfer<2>& transfer, std::unique_ptr<Law<2>
 template <class Shape>
 void press_with(const char* name, Shape shape)
 {
-  const KernelTransfer<2, Shape, Flip> transfer(shape);
+  const KernelTransfer<2, Shape, Flip> transfer(shape, false);
   press((std::string(name) + "-hencky").c_str(), transfer,
         make_hencky(PlaneAssumption::strain, wall_material, density, yield));
   press((std::string(name) + "-hypoelastic").c_str(), transfer,
