@@ -1,6 +1,7 @@
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/plan.hpp>
 #include <mpm/simulation/preparation.hpp>
+#include <mpm/simulation/snapshots.hpp>
 
 #include <algorithm>
 
@@ -68,8 +69,7 @@ std::vector<Plan::LeftOut> left_out(const Preparation<Dim>& preparation, const P
   add_if(!any_periodic(scene, Dim), "periodic images", "no side is periodic");
   add_if(loading && !loading->load_cell, "load cell", "the scene names none");
   add_if(!any_condition(plan, "rigid body"), "rigid bodies", "no material is rigid");
-  add_if(scene.output.snapshot_strains.empty() && scene.output.snapshot_times.empty(), "snapshots",
-         "no strain or time is named");
+  add_if(!asks_for_snapshots(scene), "snapshots and HDF5", "no strain or time is named");
   add_if(!scene.exact_solution, "exact solution", "the scene names none");
   add_if(plan.messages_per_step == 0, "messages", "one rank");
   return list;
