@@ -56,7 +56,7 @@ std::vector<Plan::LeftOut> left_out(const Preparation<Dim>& preparation, const P
   add_if(!particles_hold(plan, "affine_velocity"), "affine velocity",
          fmt::format("not of scheme {}", numerics.scheme->keyword));
   add_if(!particles_hold(plan, "grid_velocity"), "grid velocity of particles",
-         fmt::format("{} moves them where it reads it", numerics.update_order->keyword));
+         fmt::format("{} moves them as it reads it", numerics.update_order->keyword));
   add_if(!particles_hold(plan, "initial_position"), "first places",
          "no exact solution, no load that follows them");
   add_if(!holds(plan.nodes.columns, "remapped_momentum"), "re-mapped momentum",

@@ -112,7 +112,7 @@ std::string plan_text(const Preparation<Dim>& preparation)
   line("ranks", ranks_text(preparation.partition));
   line("memory", fmt::format("{} B per particle, {} B per node, {} in all",
                              plan.bytes_per_particle(), plan.nodes.bytes(), memory(plan.bytes())));
-  line("nodes", fmt::format("{:.0f} allocated; updated: {} below to {} above particles' cells",
+  line("nodes", fmt::format("{:.0f} allocated; updated: {} below to {} above used cells",
                             plan.nodes.allocated, plan.nodes.below, plan.nodes.above));
   line("last sound state", fmt::format("{} more at most, kept every {} steps for",
                                        memory(plan.bytes()), KeptState<Dim>::steps_between));
