@@ -86,11 +86,11 @@ std::string plan_text(const Preparation<Dim>& preparation)
   if (specimen.picture())
     line("picture", fmt::format("relative density {:.4f}", specimen.picture()->density));
   line("bulk density", fmt::format("{:.1f} kg/m3", densities.front().bulk_density));
-  line("grid",
-       fmt::format("{} cells of {} um, {} locations per cell", product(specimen.cells(), Dim),
-                   product(Vec<Dim>(1e6 * layout.geometry.spacing), Dim, "{:.4g}"),
+  line("grid", fmt::format("{} cells of {} um", product(specimen.cells(), Dim),
+                           product(Vec<Dim>(1e6 * layout.geometry.spacing), Dim, "{:.4g}")));
+  line("particles",
+       fmt::format("{:.0f} of {} locations, {} per cell", plan.particles(), specimen.locations(),
                    product(IndexVec<Dim>(IndexVec<Dim>::Constant(layout.per_cell)), Dim)));
-  line("particles", fmt::format("{:.0f} of {} locations", plan.particles(), specimen.locations()));
   line("method", fmt::format("{}", fmt::join(plan.method, ", ")));
   for (const Plan::Particles& body : plan.bodies)
     line("material", fmt::format("{}: wave speed {:.0f} m/s, {:.0f} kg/m3", body.body,
