@@ -15,8 +15,8 @@ namespace mpm {
 template <int Dim>
 struct Preparation;
 
-/// Bytes are of memory, and of the arrays that live through the run. What the sorting of particles
-/// and messages take in passing is not in them.
+/// Bytes are of memory, and of the arrays of particles and nodes. What the sorting of particles and
+/// messages take beside them is not in them.
 struct Plan {
   struct ParticleColumn {
     std::string name;
