@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What each part that a scene may do without costs: it is forced on, one at a time.
 
-    python3 tests/performance/left_out.py             five rounds, some five minutes
+    python3 tests/performance/left_out.py             nine rounds, some six minutes
     python3 tests/performance/left_out.py --write     the same, into docs/performance/left_out.md
     python3 tests/performance/left_out.py --quick     one short round: does it all still run?
 
@@ -75,7 +75,11 @@ def measure(build, rounds, more):
 
 
 def middle(values):
-    return statistics.median(values), (max(values) - min(values)) / 2
+    """Median, and half of what lies between the quartiles: others use the machine as well."""
+    if len(values) < 2:
+        return values[0], 0.0
+    quartiles = statistics.quantiles(values, n=4, method="inclusive")
+    return quartiles[1], (quartiles[2] - quartiles[0]) / 2
 
 
 def program_itself(build):
@@ -107,8 +111,9 @@ def page(build, results, itself, loads):
 
 Written by `python3 tests/performance/left_out.py --write`. A block of 160,000 particles in the plane
 (`inputs/benchmarks/block_gimp.yaml`), first {results[0][BASE]["steps"]} steps, one rank on one core;
-medians of {len(results)} rounds in turn, `+-` half their range. `more` is what the part adds to its
-base in the same round. Other programs ran on the machine: differences below their `+-` say nothing.
+medians of {len(results)} rounds in turn, `+-` half of what lies between the quartiles. `more` is what the
+part adds to its base in the same round. Other programs ran on the machine, at this load: differences
+below their `+-` say nothing.
 
 - machine: {host["model"]}, {host["cores"]} cores, Linux {host["kernel"]}; load before and after
   {loads[0]:.1f} and {loads[1]:.1f}
@@ -143,7 +148,7 @@ def main():
     before = load()
     try:
         build = Build(options.build)
-        results = measure(build, 1, ["steps=10"]) if options.quick else measure(build, 5, [])
+        results = measure(build, 1, ["steps=10"]) if options.quick else measure(build, 9, [])
         itself = program_itself(build)
     except RunFailed as failed:
         print(failed, file=sys.stderr)
