@@ -52,13 +52,16 @@ std::string ranks_text(const Partition<Dim>& partition)
                      partition.imbalance());
 }
 
-/// The passes over the particles.
-std::string passes_text(const Plan& plan)
+/// The passes over the particles, equal ones in a row as "3 x name".
+std::string passes_text(const std::vector<PassOutline>& passes)
 {
-  std::vector<std::string> names;
-  for (const PassOutline& pass : plan.passes) names.push_back(pass.name);
-  return fmt::format("{} pass{} over the particles: {}", names.size(),
-                     names.size() == 1 ? "" : "es", fmt::join(names, ", "));
+  std::string text = fmt::format("{} pass{}:", passes.size(), passes.size() == 1 ? "" : "es");
+  for (std::size_t k = 0, end; k < passes.size(); k = end) {
+    for (end = k + 1; end < passes.size() && passes[end] == passes[k];) ++end;
+    text += fmt::format("{} {}{}", k ? "," : "", end - k > 1 ? fmt::format("{} x ", end - k) : "",
+                        passes[k].name);
+  }
+  return text;
 }
 
 }  // namespace
@@ -105,7 +108,7 @@ std::string plan_text(const Preparation<Dim>& preparation)
   // Compression makes waves faster and steps shorter on the way.
   line("steps", fmt::format("{}{:.0f}, to t = {:.4g} s{}", scene.steps ? "" : "at least ",
                             plan.steps, plan.end_time, scene.steps ? " at most" : ""));
-  line("a step", passes_text(plan));
+  line("a step", passes_text(plan.passes));
   if (ranks > 1)
     line("messages", fmt::format("{:.0f} a step, {:.3g} kB, from the busiest rank",
                                  plan.messages_per_step, 1e-3 * plan.bytes_per_step));
