@@ -18,7 +18,7 @@ output: {snapshots: 0}
 PLASTIC = ("material={law: von_mises, youngs_modulus: 50 GPa, poisson_ratio: 0.3, "
            "density: 1000 kg/m^3, yield_stress: 1 GPa}")
 LOAD = "loads=[{kind: gravity, acceleration: ACCELERATION}]"
-LOAD_CELL = "loading.load_cell={cells: 3}"
+LOAD_CELL = "loading.load_cell={cells: 5}"
 FIRST_PLACES = "exact_solution={displacement: [0 m, 0 m]}"
 
 # Six typical scenes, and the columns that they need. In the plane a vector has two components.
