@@ -36,7 +36,8 @@ SNAPSHOTS = "output.snapshots=5"
 USL, USF, MUSL = (f"numerics.update_order={order}" for order in ("usl", "usf", "musl"))
 
 LEANEST = "leanest: linear, FLIP, USF, elastic, free sides"
-RICHEST = "richest: GIMP, APIC, MUSL, plastic, rigid sides, load cell, loads, exact solution, snapshots"
+RICHEST = ("richest: GIMP, APIC, MUSL, plastic, rigid sides, load cell, loads, exact solution, "
+           "snapshots")
 BASE = "base: GIMP, FLIP, USL, elastic, free sides"
 WITH_USF = "base with USF"
 # Name: settings, and the case that it is compared with.
@@ -109,22 +110,22 @@ def page(build, results, itself, loads):
     table = "\n".join(row(name, base, results) for name, (_, base) in CASES.items())
     return f"""## What is left out, and what it would cost
 
-Written by `python3 tests/performance/left_out.py --write`. A block of 160,000 particles in the plane
-(`inputs/benchmarks/block_gimp.yaml`), first {results[0][BASE]["steps"]} steps, one rank on one core;
-medians of {len(results)} rounds in turn, `+-` half of what lies between the quartiles. `more` is what the
-part adds to its base in the same round. Other programs ran on the machine, at this load: differences
-below their `+-` say nothing.
+Written by `python3 tests/performance/left_out.py --write`. A block of 160,000 particles in the
+plane (`inputs/benchmarks/block_gimp.yaml`), first {results[0][BASE]["steps"]} steps, one rank on
+one core; medians of {len(results)} rounds in turn, `+-` half of what lies between the quartiles.
+`more` is what the part adds to its base in the same round. Other programs ran on the machine, at
+this load: differences below their `+-` say nothing.
 
 - machine: {host["model"]}, {host["cores"]} cores, Linux {host["kernel"]}; load before and after
   {loads[0]:.1f} and {loads[1]:.1f}
 - program: mpm_par {about["version"]}, git {about["git"]}; {about["compiler"]}, vectors
   {about["vectors"]}
 
-ns: per particle of the block and step, all that is written on the way included. B: per particle, per
-node, arrays of particles and nodes over particles, and peak of the whole process over particles. Of
-the peak {itself / PARTICLES:.0f} B are the program with its libraries, {itself / 2**20:.0f} MiB with 64 particles;
-the rest beside the arrays is sorting, reading the scene, and the last sound state, as large as the
-arrays.
+ns: per particle of the block and step, all that is written on the way included. B: per particle,
+per node, arrays of particles and nodes over particles, and peak of the whole process over
+particles. Of the peak {itself / PARTICLES:.0f} B are the program with its libraries,
+{itself / 2**20:.0f} MiB with 64 particles; the rest beside the arrays is sorting, reading the scene,
+and the last sound state, as large as the arrays.
 
 | scene | ns | +- | more | +- | B/particle | B/node | arrays | peak |
 |---|---|---|---|---|---|---|---|---|

@@ -14,7 +14,8 @@ namespace {
 
 std::string block(const std::string& rest)
 {
-  return R"(material: {law: isotropic, youngs_modulus: 1 MPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
+  return R"(
+material: {law: isotropic, youngs_modulus: 1 MPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
 specimen:
   size: [1 m, 0.5 m]
   shapes: [{box: {lower: [0 m, 0 m], upper: [1 m, 0.5 m]}, velocity: [0 m/s, 0 m/s]}]
