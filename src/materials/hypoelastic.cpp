@@ -61,6 +61,7 @@ class Hypoelastic final : public Law<2> {
         elastic_(elastic),
         yield_(yield),
         density_(density),
+        wave_speed_(std::sqrt(stiffness.wave_modulus() / density)),
         flow_(RadialFlow::of_stress(elastic.shear_modulus(), yield))
   {
   }
@@ -135,7 +136,7 @@ class Hypoelastic final : public Law<2> {
     return plane_strain ? in_plane : in_plane * lane_exp(at(s, third));
   }
 
-  double wave_speed() const override { return std::sqrt(stiffness_.wave_modulus() / density_); }
+  double wave_speed() const override { return wave_speed_; }
 
   Lanes fastest_wave_squared(const double* state) const override
   {
@@ -243,6 +244,7 @@ class Hypoelastic final : public Law<2> {
   IsotropicConstants elastic_;
   YieldConstants yield_;
   double density_;
+  double wave_speed_;  ///< m/s; of a search over all directions, and asked for at every block
   RadialFlow flow_;
 };
 

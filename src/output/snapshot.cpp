@@ -46,9 +46,14 @@ SnapshotSeries::SnapshotSeries(MPI_Comm comm, std::filesystem::path directory, s
 {
   on_rank_zero(comm_, [this] {
     make_directory(directory_ / "snapshots");
-    std::error_code ignored;  // usually there is none
-    std::filesystem::remove(directory_ / (name_ + ".xdmf"), ignored);
+    take_down(directory_, name_);
   });
+}
+
+void SnapshotSeries::take_down(const std::filesystem::path& directory, const std::string& name)
+{
+  std::error_code ignored;  // usually there is none
+  std::filesystem::remove(directory / (name + ".xdmf"), ignored);
 }
 
 void SnapshotSeries::write(const Snapshot& snapshot)

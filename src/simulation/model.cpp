@@ -280,8 +280,16 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
     setup.bodies.push_back(empty_body<Dim>(material, int(scene.materials.size()), scene, setup));
     BodyFiller<Dim> filler(setup.bodies.back(), layout, decomposition);
     const IndexBox<Dim>& box = layout.load_cell->locations;
-    for_each_index(nearby(box, layout, decomposition), [&](const IndexVec<Dim>& at) {
-      if (filler.is_home(at)) filler.add(at, specimen.locations() + number_in(box, at), {});
+    const auto visit_home = [&](const auto& visit) {
+      for_each_index(nearby(box, layout, decomposition), [&](const IndexVec<Dim>& at) {
+        if (filler.is_home(at)) visit(at);
+      });
+    };
+    LocalIndex count = 0;
+    visit_home([&](const IndexVec<Dim>&) { ++count; });
+    setup.bodies.back().particles.reserve(count);
+    visit_home([&](const IndexVec<Dim>& at) {
+      filler.add(at, specimen.locations() + number_in(box, at), {});
     });
     setup.bodies.back().particles.seal();
   }

@@ -33,7 +33,8 @@ Preparation<Dim>::Preparation(MPI_Comm communicator, const scene::Scene& of,
       layout(agreed_layout(communicator, of, specimen)),
       partition(first_partition(communicator, of, specimen, layout)),
       comm(communicator),
-      warnings(warnings_of(of, specimen, layout, share_of(communicator)))
+      warnings(warnings_of(of, specimen, layout, share_of(communicator))),
+      plan(make_plan(*this))
 {
 }
 

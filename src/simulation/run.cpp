@@ -181,6 +181,8 @@ class Run {
     result_.end_time = stepper_.time();
     result_.first_time_step = time_step_.first();
     result_.largest_rank_bytes = GlobalIndex(largest_over_ranks(comm_, double(stepper_.bytes())));
+    result_.active_nodes = stepper_.grid().active_nodes();
+    sum_over_ranks(comm_, std::span(&result_.active_nodes, 1));
     result_.deepest_behind_piston = history_.deepest_behind_piston();
     for (const HistoryLine& line : result_.lines)
       if (line.strain > 0.01 || !model_.apparatus)

@@ -11,6 +11,8 @@
 #include <mpm/simulation/snapshots.hpp>
 
 #include <fstream>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -112,11 +114,15 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const std::filesyst
   const MPI_Comm comm = preparation.comm;
   on_rank_zero(comm, [&] { make_folder(preparation, folder); });
   HistoryWriter<Dim> history(comm, folder);
-  Snapshots<Dim> snapshots(preparation, folder);
   ProgressWriter<Dim> progress(comm);
   FailureSnapshot<Dim> failure(preparation, folder);
   ExactSolution<Dim> exact(preparation, folder);
-  const std::array<Observer<Dim>*, 5> observers{&history, &progress, &snapshots, &failure, &exact};
+  std::vector<Observer<Dim>*> observers{&history, &progress, &failure, &exact};
+  std::optional<Snapshots<Dim>> snapshots;
+  if (asks_for_snapshots(preparation.scene))
+    observers.push_back(&snapshots.emplace(preparation, folder));
+  else
+    on_rank_zero(comm, [&] { output::SnapshotSeries::take_down(folder, preparation.scene.name); });
   const RunResult result = run<Dim>(preparation, observers);
   on_rank_zero(comm, [&] {
     write_summary(preparation, result, exact, folder / "summary.json");

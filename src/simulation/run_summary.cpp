@@ -88,6 +88,7 @@ void write_summary(const Preparation<Dim>& preparation, const RunResult& result,
   summary.set("output_seconds", result.observer_seconds);
   summary.set("ns_per_particle_step", result.ns_per_particle_step(ranks));
   summary.set("largest_rank_bytes", result.largest_rank_bytes);
+  summary.set("active_nodes", result.active_nodes);
   describe(result.cooperation, summary);
   summary.set("energy_error", last.energy_error);
   summary.set("largest_energy_error", result.largest_energy_error);
@@ -98,6 +99,7 @@ void write_summary(const Preparation<Dim>& preparation, const RunResult& result,
   exact.describe(summary);
   summary.set("warnings", preparation.warnings);
   describe(result.goings_back, result.repeated_steps, summary);
+  describe(preparation.plan, summary.section("plan"));
   for (const auto& [what, version] : provenance()) summary.section("provenance").set(what, version);
   summary.section("provenance").set("scene", preparation.scene.file.string());
   summary.write(file);

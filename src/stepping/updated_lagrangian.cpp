@@ -18,8 +18,7 @@ template <int Dim>
 void UpdatedLagrangian<Dim>::connect(Decomposition<Dim> decomposition)
 {
   exchange_ = std::make_unique<Exchange<Dim>>(std::move(decomposition), *setup_.transfer);
-  const typename NodeFields<Dim>::Needs needs{setup_.order->remaps || setup_.extras.remap(),
-                                              !setup_.slots.loads.empty()};
+  const auto needs = node_needs(*setup_.order, setup_.extras, setup_.slots.loads);
   int fields = 1;
   for (const Body<Dim>& body : setup_.bodies) fields = std::max(fields, body.field + 1);
   fields_.clear();

@@ -1,10 +1,12 @@
-"""docs/performance.md from the stored table, the plan and the hand-written bounds and changes."""
+"""docs/performance.md from the stored table, the plan, what parts cost (left_out.py), and the
+hand-written bounds and changes."""
 from measuring import PROJECT
 from plan import plan
 from studies import study_table
 from table import about_text, catalogue, markdown
 
 PAGE = PROJECT / "docs" / "performance.md"
+LEFT_OUT = PROJECT / "docs" / "performance" / "left_out.md"
 BOUNDS = PROJECT / "docs" / "performance" / "bounds.md"
 CHANGES = PROJECT / "docs" / "performance" / "changes.md"
 PICTURE = PROJECT / "docs" / "images" / "cost_growth.png"
@@ -24,6 +26,7 @@ def page(table, release):
         "# Performance\n",
         "Written by `tests/performance/benchmark.py` from the table of release "
         f"{release} (`tests/performance/stored/{release}.json`),\n"
+        "[performance/left_out.md](performance/left_out.md), "
         "[performance/bounds.md](performance/bounds.md) and "
         "[performance/changes.md](performance/changes.md). Measure again:\n\n"
         "```sh\ncmake -S . -B build -DMPM_BUILD_BENCHMARKS=ON && cmake --build build -j2\n"
@@ -47,7 +50,7 @@ def page(table, release):
         section("1e8 particles", planned if plan(table) else "",
                 "Computed from the figures of eight million particles on 2 ranks; messages between "
                 "more ranks are not in it."),
-        BOUNDS.read_text(), CHANGES.read_text()]
+        LEFT_OUT.read_text(), BOUNDS.read_text(), CHANGES.read_text()]
     return "\n".join(part for part in parts if part)
 
 

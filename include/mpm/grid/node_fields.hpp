@@ -107,12 +107,6 @@ class NodeFields {
 
   void archive(Archive& archive);
   std::size_t bytes() const;
-  /// Of memory per node.
-  static double bytes_per_node(const Needs& needs)
-  {
-    return sizeof(double) * (!mass_slot + 2.0 * record_width + velocity_width +
-                             needs.remap * remap_width + needs.load_force * Dim);
-  }
 
   // Node values, local numbering, x fastest. [N], [N * record_width], ...; kg, kg m/s and N, m/s.
   LaneVector<double> mass;               ///< empty where it rides in the record

@@ -46,6 +46,9 @@ class SnapshotSeries {
   void write(const Snapshot& snapshot);
 
   int written() const { return written_; }
+  /// The series of that name from an earlier run: nothing names its snapshots any more. On one
+  /// rank.
+  static void take_down(const std::filesystem::path& directory, const std::string& name);
   /// Takes down all but the first ones. Collective.
   void cut(int written);
 

@@ -3,6 +3,7 @@
 
 #include <mpm/parallel/partition.hpp>
 #include <mpm/simulation/layout.hpp>
+#include <mpm/simulation/plan.hpp>
 
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct Preparation {
   Partition<Dim> partition;  ///< of the particles at the start
   MPI_Comm comm;
   std::vector<std::string> warnings;
+  Plan plan;
 
   /// Collective. Throws InputError on every rank.
   Preparation(MPI_Comm comm, const scene::Scene& scene, std::optional<micrograph::Picture> picture);

@@ -43,6 +43,7 @@ struct RunResult {
   /// s: of the loop without its observers, of the observers, and of all from the preparation on.
   double step_seconds = 0, observer_seconds = 0, wall_seconds = 0;
   GlobalIndex largest_rank_bytes = 0;
+  GlobalIndex active_nodes = 0;      ///< at the end, of all ranks; shared ones count on each
   double deepest_behind_piston = 0;  ///< m
   double largest_energy_error = 0;   ///< after 1 % strain
   Cooperation cooperation;

@@ -11,6 +11,12 @@ template <int Dim>
 output::Snapshot snapshot_of(Formulation<Dim>& formulation, double strain,
                              const std::vector<scene::Field>& fields);
 
+inline bool asks_for_snapshots(const scene::Scene& scene)
+{
+  return !scene.output.snapshot_strains.empty() || !scene.output.snapshot_times.empty();
+}
+
+/// Of a scene that asks for any.
 template <int Dim>
 class Snapshots final : public Observer<Dim> {
  public:

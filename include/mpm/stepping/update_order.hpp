@@ -11,4 +11,12 @@ using StepFunction = void (*)(Step<Dim>& step, double dt);
 template <int Dim>
 StepFunction<Dim> step_function(OneOf<UpdateOrderRow> order);
 
+/// What the nodes carry for it.
+template <int Dim>
+typename NodeFields<Dim>::Needs node_needs(const UpdateOrderRow& order, const StepExtras& extras,
+                                           const Loads<Dim>& loads)
+{
+  return {.remap = order.remaps || extras.remap(), .load_force = !loads.empty()};
+}
+
 }  // namespace mpm

@@ -1,0 +1,136 @@
+#include <mpm/parallel/session.hpp>
+#include <mpm/simulation/kept_state.hpp>
+#include <mpm/simulation/preparation.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace mpm {
+
+namespace {
+
+/// Of the cost in the plane, by the shipped block scenes: a stencil has support times the nodes.
+template <int Dim>
+double step_cost(const scene::Numerics& numerics)
+{
+  return numerics.shape_function->step_cost * (Dim == 2 ? 1.0 : 2.5);
+}
+
+std::string memory(double bytes)
+{
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
+                     : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+std::string duration(double seconds)
+{
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+template <class Values>
+std::string product(const Values& values, int count, const char* format = "{}")
+{
+  std::string text;
+  for (int d = 0; d < count; ++d)
+    text += (d ? " x " : "") + fmt::format(fmt::runtime(format), values[d]);
+  return text;
+}
+
+/// Shape of the partition and its balance at the start.
+template <int Dim>
+std::string ranks_text(const Partition<Dim>& partition)
+{
+  const Ownership<Dim>& ownership = partition.ownership;
+  if (ownership.ranks() == 1) return "1";
+  const IndexVec<Dim> edges = IndexVec<Dim>::Constant(ownership.block_edge());
+  return fmt::format("{}; busiest {:.3f} of the mean",
+                     ownership.by_cuts() ? product(ownership.ranks_per_axis(), Dim)
+                                         : fmt::format("{}, blocks of {} cells mapped by METIS",
+                                                       ownership.ranks(), product(edges, Dim)),
+                     partition.imbalance());
+}
+
+/// The passes over the particles, equal ones in a row as "3 x name".
+std::string passes_text(const std::vector<PassOutline>& passes)
+{
+  std::string text = fmt::format("{} pass{}:", passes.size(), passes.size() == 1 ? "" : "es");
+  for (std::size_t k = 0, end; k < passes.size(); k = end) {
+    for (end = k + 1; end < passes.size() && passes[end] == passes[k];) ++end;
+    text += fmt::format("{} {}{}", k ? "," : "", end - k > 1 ? fmt::format("{} x ", end - k) : "",
+                        passes[k].name);
+  }
+  return text;
+}
+
+}  // namespace
+
+template <int Dim>
+std::string plan_text(const Preparation<Dim>& preparation)
+{
+  const scene::Scene& scene = preparation.scene;
+  const micrograph::Specimen<Dim>& specimen = preparation.specimen;
+  const Layout<Dim>& layout = preparation.layout;
+  const Plan& plan = preparation.plan;
+  const int ranks = ranks_of(preparation.comm);
+  std::string text;
+  const auto line = [&](const char* what, const std::string& value) {
+    text += fmt::format("  {:<18} {}\n", what, value);
+  };
+  const auto& densities = specimen.densities();
+  text += fmt::format("{}\n", scene.title.empty() ? scene.name : scene.title);
+  line("specimen", fmt::format("{} mm, relative density {:.4f}",
+                               product(Vec<Dim>(1e3 * specimen.size()), Dim, "{:.4g}"),
+                               densities.front().value));
+  for (std::size_t k = 1; k < densities.size(); ++k)
+    line("", fmt::format("{}: {:.4f}, {:.0f} kg/m3", densities[k].window, densities[k].value,
+                         densities[k].bulk_density));
+  if (specimen.picture())
+    line("picture", fmt::format("relative density {:.4f}", specimen.picture()->density));
+  line("bulk density", fmt::format("{:.1f} kg/m3", densities.front().bulk_density));
+  line("grid", fmt::format("{} cells of {} um", product(specimen.cells(), Dim),
+                           product(Vec<Dim>(1e6 * layout.geometry.spacing), Dim, "{:.4g}")));
+  line("particles",
+       fmt::format("{:.0f} of {} locations, {} per cell", plan.particles(), specimen.locations(),
+                   product(IndexVec<Dim>(IndexVec<Dim>::Constant(layout.per_cell)), Dim)));
+  line("method", fmt::format("{}", fmt::join(plan.method, ", ")));
+  for (const Plan::Particles& body : plan.bodies)
+    line("material", fmt::format("{}: wave speed {:.0f} m/s, {:.0f} kg/m3", body.body,
+                                 body.wave_speed, body.density));
+  for (const std::string& load : plan.loads) line("load", load);
+  const char* what = "left out";
+  for (const Plan::LeftOut& absent : plan.left_out) {
+    line(what, fmt::format("{}: {}", absent.what, absent.why));
+    what = "";
+  }
+  line("time step", fmt::format("{:.4g} s (CFL {:.3g})", plan.time_step, layout.cfl));
+  // Compression makes waves faster and steps shorter on the way.
+  line("steps", fmt::format("{}{:.0f}, to t = {:.4g} s{}", scene.steps ? "" : "at least ",
+                            plan.steps, plan.end_time, scene.steps ? " at most" : ""));
+  line("a step", passes_text(plan.passes));
+  if (ranks > 1)
+    line("messages", fmt::format("{:.0f} a step, {:.3g} kB, from the busiest rank",
+                                 plan.messages_per_step, 1e-3 * plan.bytes_per_step));
+  line("ranks", ranks_text(preparation.partition));
+  line("memory", fmt::format("{} B per particle, {} B per node, {} in all",
+                             plan.bytes_per_particle(), plan.nodes.bytes(), memory(plan.bytes())));
+  line("nodes", fmt::format("{:.0f} allocated; updated: {} below to {} above used cells",
+                            plan.nodes.allocated, plan.nodes.below, plan.nodes.above));
+  line("last sound state", fmt::format("{} more at most, kept every {} steps for",
+                                       memory(plan.bytes()), KeptState<Dim>::steps_between));
+  line("", scene.numerics.recovery == scene::Recovery::retry
+               ? "another attempt and a snapshot of failure"
+               : "a snapshot of failure");
+  line("run time", fmt::format("about {} on {} rank{} (order of magnitude)",
+                               duration(1e-9 * step_cost<Dim>(scene.numerics) * plan.particles() *
+                                        plan.steps / ranks),
+                               ranks, ranks == 1 ? "" : "s"));
+  for (const std::string& warning : preparation.warnings) line("warning", warning);
+  return text;
+}
+
+template std::string plan_text(const Preparation<2>&);
+template std::string plan_text(const Preparation<3>&);
+
+}  // namespace mpm
