@@ -318,26 +318,6 @@ class KernelTransfer final : public Transfer<Dim> {
     scatter.template add<needs_affine>(stencil, mass, momentum, force_stress, affine);
   }
 
-  /// Adds w f to the nodes, one after the other: loads are few.
-  static void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& grid,
-                            const Lanes (&force)[Dim], double* nodes)
-  {
-    constexpr int n = Shape::support, layers = Dim == 3 ? n : 1;
-    for (int lane = 0; lane < lane_count; ++lane)
-      for (int c = 0; c < layers; ++c)
-        for (int b = 0; b < n; ++b)
-          for (int a = 0; a < n; ++a) {
-            std::size_t node =
-                std::size_t(stencil.base[lane]) + a + b * std::size_t(grid.stride(1));
-            double w = stencil.weight[0][a][lane] * stencil.weight[1][b][lane];
-            if constexpr (Dim == 3) {
-              node += c * std::size_t(grid.stride(2));
-              w *= stencil.weight[2][c][lane];
-            }
-            for (int d = 0; d < Dim; ++d) nodes[node * Dim + d] += w * force[d][lane];
-          }
-  }
-
   /// Notes the first lost particle and puts all lost ones where memory is valid; the run ends
   /// soon after.
   void report_lost(const ParticleStore& particles, LocalIndex block, const LaneMask& reach,

@@ -197,4 +197,24 @@ class Scatter {
   MassRow mass_[rows];
 };
 
+/// Adds w f to the nodes, one after the other: loads are few.
+template <int Dim, class Shape>
+void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& grid,
+                   const Lanes (&force)[Dim], double* nodes)
+{
+  constexpr int n = Shape::support, layers = Dim == 3 ? n : 1;
+  for (int lane = 0; lane < lane_count; ++lane)
+    for (int c = 0; c < layers; ++c)
+      for (int b = 0; b < n; ++b)
+        for (int a = 0; a < n; ++a) {
+          std::size_t node = std::size_t(stencil.base[lane]) + a + b * std::size_t(grid.stride(1));
+          double w = stencil.weight[0][a][lane] * stencil.weight[1][b][lane];
+          if constexpr (Dim == 3) {
+            node += c * std::size_t(grid.stride(2));
+            w *= stencil.weight[2][c][lane];
+          }
+          for (int d = 0; d < Dim; ++d) nodes[node * Dim + d] += w * force[d][lane];
+        }
+}
+
 }  // namespace mpm
