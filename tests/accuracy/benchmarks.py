@@ -1,11 +1,11 @@
 """Error and cost of every method on scenes with a known answer.
 
-    benchmarks.py MPM_PAR [--quick] [--case NAME ...] [--work DIR] [--write]
+    benchmarks.py MPM_PAR [--quick] [--case NAME ...] [--work DIR] [--write] [--kept]
 
 table.json names scenes, levels and methods; what is measured, and against what, is that of
 tests/convergence/table.json for the same scene where the case itself does not say it. --write puts
-what is kept in DIR into docs/accuracy/benchmarks.csv; --quick runs the coarsest levels ("quick") and
-writes nothing.
+what is kept in DIR into docs/accuracy/benchmarks.csv, --kept makes no other runs; --quick runs the
+coarsest levels ("quick") and writes nothing.
 """
 import argparse
 import json
@@ -33,12 +33,17 @@ def error_of(case, level, folder):
     return found / level if case.get("measure") == "contact.remaining_width" else found
 
 
-def row_of(mpm_par, case, method, level, work):
+def all_settings(case, method, level):
     shape, scheme = method.split()
     settings = [*ladders.settings_of(case, level), f"numerics.shape_function={shape}",
                 f"numerics.scheme={scheme}"]
     if scheme == "fmpm":
         settings.append(f"numerics.fmpm_order={FMPM_ORDER}")
+    return settings
+
+
+def row_of(mpm_par, case, method, level, work):
+    settings = all_settings(case, method, level)
     folder, cost = runs.run(mpm_par, ladders.SCENES / case["scene"], settings, work)
     row = {"case": case["name"], "method": method, "level": level, **cost}
     if cost["status"] == "ok":
@@ -54,6 +59,7 @@ def main():
     arguments.add_argument("--case", nargs="+", help="names; all unless given")
     arguments.add_argument("--work", type=Path, default=runs.PROJECT / "results" / "accuracy")
     arguments.add_argument("--write", action="store_true")
+    arguments.add_argument("--kept", action="store_true")
     given = arguments.parse_args()
     rows = []
     for case in map(whole_case, TABLE["cases"]):
@@ -61,6 +67,9 @@ def main():
             continue
         for level in case["levels"][:case["quick"] if given.quick else None]:
             for method in TABLE["methods"]:
+                if given.kept and not runs.is_kept(ladders.SCENES / case["scene"],
+                                                   all_settings(case, method, level), given.work):
+                    continue
                 rows.append(row_of(given.mpm_par, case, method, level, given.work))
                 print(" ".join(f"{key}={value}" for key, value in rows[-1].items()), flush=True)
     if given.write and not given.quick and not given.case:

@@ -1,11 +1,12 @@
 """The ladder of Nairn (2006, Wood Fiber Sci. 38(4), Fig. 3) on the loblolly model, to 40 % strain.
 
-    loblolly.py MPM_PAR [--quick] [--method "SHAPE SCHEME" ...] [--largest N] [--work DIR] [--write]
+    loblolly.py MPM_PAR [--quick] [--method "SHAPE SCHEME" ...] [--largest N]
+                        [--work DIR] [--write] [--kept]
 
 Twice: with the picture as it is, sampled anew at every level, and with the geometry of the coarsest
 level, each location of which becomes k x k particles at the level of k times as many cells. --write
-puts what is kept in DIR into docs/accuracy; --quick runs the four coarsest levels of the picture and
-the two coarsest of the fixed geometry with one method and writes nothing.
+puts what is kept in DIR into docs/accuracy, --kept makes no other runs; --quick runs the four coarsest
+levels of the picture and the two coarsest of the fixed geometry with one method and writes nothing.
 """
 import argparse
 import json
@@ -111,6 +112,7 @@ def main():
     arguments.add_argument("--largest", type=int, default=PICTURE[-1][0], help="cells across")
     arguments.add_argument("--work", type=Path, default=runs.PROJECT / "results" / "accuracy")
     arguments.add_argument("--write", action="store_true")
+    arguments.add_argument("--kept", action="store_true")
     given = arguments.parse_args()
     given.work.mkdir(parents=True, exist_ok=True)
     plan = planned(given.method, given.largest)
@@ -120,8 +122,10 @@ def main():
     picture = base_picture(given.mpm_par, given.work)
     rows, curves = [], {}
     for geometry, method, cells in plan:
-        folder, cost = runs.run(given.mpm_par, SCENE,
-                                settings_of(geometry, method, cells, picture), given.work)
+        settings = settings_of(geometry, method, cells, picture)
+        if given.kept and not runs.is_kept(SCENE, settings, given.work):
+            continue
+        folder, cost = runs.run(given.mpm_par, SCENE, settings, given.work)
         row = {"geometry": geometry, "method": method, "cells": cells[0], "cells_high": cells[1],
                **cost}
         if cost["status"] == "ok":

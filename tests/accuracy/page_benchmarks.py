@@ -52,3 +52,11 @@ def broken():
     text = "; ".join(f"{row['case']}, {comma(row['method'])}, n = {row['level']:.0f}"
                      for row in found)
     return f"Stopped by the watch over the energy, and without a point: {text}.\n"
+
+
+def front_count():
+    """Number of scenes on whose front of run time each method has a run."""
+    counts = {method: sum(bool(analysis.on_front(case["name"], method)[0])
+                          for case in analysis.cases()) for method in analysis.methods()}
+    ordered = sorted(counts.items(), key=lambda pair: -pair[1])
+    return ", ".join(f"{comma(method)} {count}" for method, count in ordered)

@@ -27,8 +27,7 @@ def cells_early(model, method, geometry=None):
 
 def honeycomb():
     methods = methods_of("honeycomb")
-    heads = ["cells across (per wall)"] + [f"{comma(method)}: closing strain, too early by, run time"
-                                           for method in methods]
+    heads = ["cells across (per wall)", *map(comma, methods)]
     ladders = {method: {row["cells"]: row for row in analysis.ladder("honeycomb", method)}
                for method in methods}
     lines = []
@@ -42,13 +41,13 @@ def honeycomb():
                 continue
             at_zero, _, _ = analysis.first_order("honeycomb", list(ladders[method].values()),
                                                  "closing_strain")
-            line.append(f"{points(found)}, {points(at_zero - found)}, {seconds(row['seconds'])}")
+            line.append(f"{points(found)} ({points(at_zero - found)}), {seconds(row['seconds'])}")
         lines.append(line)
-    last = ["straight line to h = 0; cells a lumen"]
+    last = ["line at h = 0; slope in cells"]
     for method in methods:
         at_zero, _, off = analysis.first_order("honeycomb", list(ladders[method].values()),
                                                "closing_strain")
-        last.append(f"{points(at_zero)} (off by {percent(off)} at most); {cells_early('honeycomb', method):.2f}")
+        last.append(f"{points(at_zero)} (+- {percent(off)}); {cells_early('honeycomb', method):.2f}")
     return table(heads, lines + [last])
 
 
@@ -75,3 +74,16 @@ def early(model, method, row):
     """Strain by which contact comes early: g h for each lumen along the way, g from the closing gap."""
     return analysis.gap_left(method) * analysis.spacing(model, row) \
         * analysis.lumens_per_length(model)
+
+
+def quote():
+    """What a resolution costs on loblolly, as a list."""
+    rows = [row for row in analysis.ladder("loblolly", "gimp flip", "picture")
+            if row["cells"] in (75, 150, 300)]
+    at_zero, _, _ = analysis.first_order("loblolly", [row for row in analysis.ladder(
+        "loblolly", "gimp flip", "picture") if row["cells"] >= 150], "closing_strain")
+    return "; ".join(
+        f"{row['cells']:.0f} cells ({seconds(row['seconds'])}): closing strain "
+        f"{points(analysis.closing_strain('loblolly', row))}, "
+        f"{points(at_zero - analysis.closing_strain('loblolly', row))} below the line's end, of which "
+        f"early contact is {points(early('loblolly', 'gimp flip', row))}" for row in rows)

@@ -92,6 +92,12 @@ def fine(method):
     return [row for row in ladder(method, "picture") if row["cells"] >= 150]
 
 
+def reach(rows, cells):
+    """Run time at so many cells; beyond a month nobody waits for it."""
+    found = analysis.seconds_at(rows, cells)
+    return seconds(found) if found < 30 * 86400 else "beyond a month"
+
+
 def users(method):
     """What a user's resolution is worth and what 5 % and 1 % would take."""
     rows = fine(method)
@@ -108,6 +114,69 @@ def users(method):
                  for cells in (75, 150, last)]
         for error in (0.05, 0.01):
             cells = analysis.cells_for("loblolly", rows, figure, error)
-            line += [f"{cells:,.0f}", seconds(analysis.seconds_at(rows, cells))]
+            line += [f"{cells:,.0f}", reach(rows, cells)]
         lines.append(line)
     return table(heads, lines)
+
+
+def two_levels(method, pairs):
+    """What two levels say when they are carried to h = 0, against the line through all."""
+    every = fine(method)
+    held = {row["cells"]: row for row in ladder(method, "picture")}
+    pairs = [pair for pair in pairs if set(pair) <= set(held)]
+    heads = ["figure"] + [f"{coarse} and {sharp} cells ("
+                          f"{seconds(held[coarse]['seconds'] + held[sharp]['seconds'])})"
+                          for coarse, sharp in pairs]
+    lines = []
+    for figure, words in analysis.FIGURES.items():
+        if figure == "densification_strain":
+            continue
+        line = [words]
+        for pair in pairs:
+            found, _, _ = analysis.first_order("loblolly", [held[cells] for cells in pair], figure)
+            whole, _, _ = analysis.first_order("loblolly", every, figure)
+            line.append(percent(results.relative_error(found, whole)))
+        lines.append(line)
+    return table(heads, lines)
+
+
+def errors_at(method, cells):
+    """Of the three figures that are quoted most, along the line of first order."""
+    return ", ".join(
+        f"{words} {percent(analysis.first_order_error('loblolly', fine(method), figure, cells))}"
+        for figure, words in (("modulus", "modulus"), ("plateau_stress", "plateau"),
+                              ("closing_strain", "closing strain")))
+
+
+def three_users():
+    """A sentence for each of three users."""
+    method = "gimp flip"
+    rows = fine(method)
+    held = {row["cells"]: row for row in ladder(method, "picture")}
+
+    def need(figure, error):
+        cells = analysis.cells_for("loblolly", rows, figure, error)
+        known = "" if cells <= rows[-1]["cells"] else ", extrapolated"
+        return f"{cells:,.0f} cells across, {reach(rows, cells)}{known}"
+
+    whole = {figure: analysis.first_order("loblolly", rows, figure)[0] for figure in
+             ("modulus", "plateau_stress", "closing_strain")}
+    pair = [held[cells] for cells in (150, 300)]
+    limits = {figure: analysis.first_order("loblolly", pair, figure)[0] for figure in whole}
+    carried = ", ".join(f"{analysis.FIGURES[figure]} "
+                        f"{percent(results.relative_error(limits[figure], value))}"
+                        for figure, value in whole.items())
+    return "\n".join([
+        f"- **A quick look**: the defaults (gimp, flip) with `cells: [150, 97]`, "
+        f"{seconds(held[150]['seconds'])}: where walls fold, and in which order; the figures are too "
+        f"stiff and too early, off by {errors_at(method, 150)}. 75 cells take {seconds(held[75]['seconds'])} "
+        f"and leave {errors_at(method, 75)}.",
+        f"- **5 % on a real micrograph**: no single run that was made has it. Run 150 and 300 cells "
+        f"across with the defaults, {seconds(sum(row['seconds'] for row in pair))} together, and carry "
+        f"every figure to h = 0 as 2 f300 - f150: what comes out is away from the line through all "
+        f"levels from 150 cells on by {carried}. One run alone, along that line: modulus "
+        f"{need('modulus', 0.05)}; closing strain {need('closing_strain', 0.05)}; plateau "
+        f"{need('plateau_stress', 0.05)}.",
+        f"- **1 %**: not measured. One run alone, along the line and with run times that grow as the "
+        f"ladder's: modulus {need('modulus', 0.01)}; closing strain {need('closing_strain', 0.01)}; "
+        f"plateau {need('plateau_stress', 0.01)}. The picture has to be as good, too."]) + "\n"

@@ -13,7 +13,7 @@ from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[2]
 RESULTS = PROJECT / "docs" / "accuracy"
-sys.path[:0] = [str(PROJECT / "src" / "study"), str(PROJECT / "tests" / "convergence")]
+sys.path += [str(PROJECT / "src" / "study"), str(PROJECT / "tests" / "convergence")]
 ROUNDS, SHORT = 3, 1.0  # runs of less than SHORT seconds are timed ROUNDS times
 
 
@@ -34,6 +34,16 @@ def start_up(mpm_par, scene):
                    for _ in range(3))
 
 
+def place_of(scene, settings, folder):
+    """Where the results of this run are kept."""
+    name = hashlib.sha256("\n".join([Path(scene).read_text(), *settings]).encode()).hexdigest()[:16]
+    return Path(folder) / f"{Path(scene).stem}_{name}"
+
+
+def is_kept(scene, settings, folder):
+    return (place_of(scene, settings, folder) / "cost.json").exists()
+
+
 def run(mpm_par, scene, settings, folder):
     """Folder of results of one run, in `folder`, and its row of costs.
 
@@ -41,12 +51,11 @@ def run(mpm_par, scene, settings, folder):
     the program), of all rounds: nearest to the wall time of one rank on a machine that nothing else
     uses.
     """
-    name = hashlib.sha256("\n".join([Path(scene).read_text(), *settings]).encode()).hexdigest()[:16]
-    place = Path(folder) / f"{Path(scene).stem}_{name}"
+    place = place_of(scene, settings, folder)
     kept = place / "cost.json"
     if kept.exists():
         return place, json.loads(kept.read_text())
-    command = ["nice", "-n", "5", str(mpm_par), str(scene), "--output", str(place)]
+    command = [str(mpm_par), str(scene), "--output", str(place)]
     for setting in settings:
         command += ["--set", setting]
     place.mkdir(parents=True, exist_ok=True)
