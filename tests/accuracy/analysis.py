@@ -23,9 +23,16 @@ def case_rows(case):
     return [row for row in read("benchmarks.csv") if row["case"] == case and row["error"] is not None]
 
 
+def settled(row):
+    """The largest error of this level and of the finer ones of its method: an error that changes its
+    sign passes through 0, and a level where it happens to do so has reached nothing."""
+    return max(other["error"] for other in case_rows(row["case"])
+               if other["method"] == row["method"] and other["level"] >= row["level"])
+
+
 def front(case, cost="seconds"):
-    """Rows that no other row of the scene beats in cost and error both, cheapest first."""
-    return pareto.front(case_rows(case), lambda row: row[cost], lambda row: row["error"])
+    """Rows that no other row of the scene beats in cost and settled error both, cheapest first."""
+    return pareto.front(case_rows(case), lambda row: row[cost], settled)
 
 
 def on_front(case, method):

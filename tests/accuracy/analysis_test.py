@@ -49,11 +49,20 @@ class Analysis(unittest.TestCase):
         self.assertAlmostEqual(analysis.exponent(rows), 3)
         self.assertAlmostEqual(analysis.seconds_at(rows, 600), 2e-6 * 600**3)
 
+    def test_a_level_that_passes_through_zero_is_on_no_front(self):
+        rows = [{"case": "a", "method": method, "level": level, "seconds": cost, "error": error}
+                for method, level, cost, error in (("one", 1, 1, 0.001), ("one", 2, 4, 0.2),
+                                                   ("two", 1, 2, 0.1), ("two", 2, 8, 0.05))]
+        with mock.patch.object(analysis, "read", lambda name: rows):
+            self.assertEqual([(row["method"], row["level"]) for row in analysis.front("a")],
+                             [("one", 1), ("two", 1), ("two", 2)])
+            self.assertEqual(analysis.settled(rows[0]), 0.2)
+
     def test_only_good_rows_of_the_geometry_are_levels(self):
         rows = [row(150), row(75), row(300, status="exit status 3"), row(225, geometry="picture")]
         with mock.patch.object(analysis, "read", lambda name: rows):
-            self.assertEqual([one["cells"] for one in analysis.ladder("loblolly", "gimp flip", "fixed")],
-                             [75, 150])
+            found = analysis.ladder("loblolly", "gimp flip", "fixed")
+        self.assertEqual([one["cells"] for one in found], [75, 150])
 
 
 if __name__ == "__main__":

@@ -32,8 +32,8 @@ def benchmarks():
             axis.loglog([row["seconds"] for row in rows], [row["error"] for row in rows],
                         **style(method))
         front = analysis.front(case["name"])
-        axis.loglog([row["seconds"] for row in front], [row["error"] for row in front], "k-",
-                    linewidth=3, alpha=0.2, label="Pareto front")
+        axis.loglog([row["seconds"] for row in front], [analysis.settled(row) for row in front],
+                    "k-", linewidth=4, alpha=0.2, label="Pareto front")
         axis.set_title(case["title"], fontsize=9)
         axis.grid(alpha=0.3)
     for axis in axes[-1]:
@@ -85,7 +85,7 @@ def loblolly_methods():
 
 def early_contact():
     figure, axes = pyplot.subplots(1, 2, figsize=(10, 4))
-    for axis, model, geometry in zip(axes, ("honeycomb", "loblolly"), (None, "fixed")):
+    for axis, model, geometry in zip(axes, ("honeycomb", "loblolly"), (None, "picture")):
         for method in dict.fromkeys(row["method"] for row in analysis.read(f"{model}.csv")):
             rows = analysis.ladder(model, method, geometry)
             known = [(1e6 * analysis.spacing(model, row), analysis.closing_strain(model, row))
@@ -95,7 +95,7 @@ def early_contact():
         at_zero, _, _ = analysis.first_order(model, analysis.ladder(model, "gimp flip", geometry),
                                              "closing_strain")
         slope = -analysis.gap_left("gimp flip") * analysis.lumens_per_length(model)
-        end = max(analysis.spacing(model, row) for row in analysis.ladder(model, "gimp flip", geometry))
+        end = analysis.spacing(model, analysis.ladder(model, "gimp flip", geometry)[0])
         axis.plot([0, 1e6 * end], [100 * at_zero, 100 * (at_zero + slope * end)], "k:",
                   label="gimp: slope of the gap that is left")
         axis.set(title=f"{model}: {analysis.CLOSED[model] / 1e6:.0f} MPa reached for good",

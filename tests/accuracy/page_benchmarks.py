@@ -37,9 +37,9 @@ def list_of_fronts():
     lines = []
     for case in analysis.cases():
         front = analysis.front(case["name"])
-        found = [f"{comma(row['method'])} {row['level']:.0f} ({percent(row['error'])}, "
+        found = [f"{comma(row['method'])} {row['level']:.0f} ({percent(analysis.settled(row))}, "
                  f"{seconds(row['seconds'])})" for row in front]
-        lines.append(f"- **{case['title']}** (n = {', '.join(map(str, case['levels']))}): "
+        lines.append(f"- **{case['title']}** (`{case['scene']}`, n = {', '.join(map(str, case['levels']))}): "
                      f"{ABOUT[case['name']]}. " + "; ".join(found) + ".")
     return "\n".join(lines) + "\n"
 

@@ -169,8 +169,8 @@ def three_users():
     return "\n".join([
         f"- **A quick look**: the defaults (gimp, flip) with `cells: [150, 97]`, "
         f"{seconds(held[150]['seconds'])}: where walls fold, and in which order; the figures are too "
-        f"stiff and too early, off by {errors_at(method, 150)}. 75 cells take {seconds(held[75]['seconds'])} "
-        f"and leave {errors_at(method, 75)}.",
+        f"stiff and too early, off by {errors_at(method, 150)}. 75 cells take "
+        f"{seconds(held[75]['seconds'])} and leave {errors_at(method, 75)}.",
         f"- **5 % on a real micrograph**: no single run that was made has it. Run 150 and 300 cells "
         f"across with the defaults, {seconds(sum(row['seconds'] for row in pair))} together, and carry "
         f"every figure to h = 0 as 2 f300 - f150: what comes out is away from the line through all "
