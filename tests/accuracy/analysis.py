@@ -20,7 +20,8 @@ HONEYCOMB_PERIOD = 3 ** 0.5 * 0.1e-3  # of crushed_honeycomb.yaml along the pist
 
 
 def case_rows(case):
-    return [row for row in read("benchmarks.csv") if row["case"] == case and row["error"] is not None]
+    return [row for row in read("benchmarks.csv")
+            if row["case"] == case and row["error"] is not None]
 
 
 def settled(row):

@@ -39,8 +39,8 @@ def list_of_fronts():
         front = analysis.front(case["name"])
         found = [f"{comma(row['method'])} {row['level']:.0f} ({percent(analysis.settled(row))}, "
                  f"{seconds(row['seconds'])})" for row in front]
-        lines.append(f"- **{case['title']}** (`{case['scene']}`, n = {', '.join(map(str, case['levels']))}): "
-                     f"{ABOUT[case['name']]}. " + "; ".join(found) + ".")
+        levels = ", ".join(map(str, case["levels"]))
+        lines.append(f"- **{case['title']}** (`{case['scene']}`, n = {levels}): {ABOUT[case['name']]}. " + "; ".join(found) + ".")
     return "\n".join(lines) + "\n"
 
 

@@ -192,8 +192,8 @@ def three_users():
         f"{seconds(held[75]['seconds'])} and leave {errors_at(method, 75)}.",
         f"- **5 % on a real micrograph**: no single run that was made has it. Run 150 and 300 cells "
         f"across with the defaults, {seconds(sum(row['seconds'] for row in pair))} together, and carry "
-        f"modulus, plateau and closing strain to h = 0 as 2 f300 - f150: what comes out is away from the line through all "
-        f"levels from 150 cells on by {carried}. One run alone, along that line: modulus "
+        f"modulus, plateau and closing strain to h = 0 as 2 f300 - f150: what comes out is away from "
+        f"the line through all levels from 150 cells on by {carried}. One run alone, along that line: modulus "
         f"{need('modulus', 0.05)}; closing strain {need('closing_strain', 0.05)}; plateau "
         f"{need('plateau_stress', 0.05)}. Nothing proves 5 % of the plateau: its limits "
         f"range from {plateau_limits()}.",
