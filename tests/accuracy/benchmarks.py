@@ -67,8 +67,9 @@ def main():
             continue
         for level in case["levels"][:case["quick"] if given.quick else None]:
             for method in TABLE["methods"]:
-                if given.kept and not runs.is_kept(ladders.SCENES / case["scene"],
-                                                   all_settings(case, method, level), given.work):
+                if given.kept and not runs.kept_cost(
+                        given.mpm_par, ladders.SCENES / case["scene"],
+                        all_settings(case, method, level), given.work):
                     continue
                 rows.append(row_of(given.mpm_par, case, method, level, given.work))
                 print(" ".join(f"{key}={value}" for key, value in rows[-1].items()), flush=True)

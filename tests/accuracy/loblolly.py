@@ -62,10 +62,9 @@ def locations(folder, cells):
 def base_picture(mpm_par, work):
     """The geometry of the coarsest level as a picture with one pixel a location."""
     picture = Path(work) / "base.bmp"
-    if not picture.exists():
-        folder, _ = runs.run(mpm_par, SCENE, [f"grid.cells={BASE}", "loading.strain=0.1 %",
-                                              "output.snapshots={strains: [0 %]}"], work)
-        picture.write_bytes(bitmap(locations(folder, BASE)))
+    folder, _ = runs.run(mpm_par, SCENE, [f"grid.cells={BASE}", "loading.strain=0.1 %",
+                                          "output.snapshots={strains: [0 %]}"], work)
+    picture.write_bytes(bitmap(locations(folder, BASE)))
     return picture
 
 
@@ -126,7 +125,7 @@ def main():
     rows, curves = [], {}
     for geometry, method, cells in plan:
         settings = settings_of(geometry, method, cells, picture)
-        if given.kept and not runs.is_kept(SCENE, settings, given.work):
+        if given.kept and not runs.kept_cost(given.mpm_par, SCENE, settings, given.work):
             continue
         folder, cost = runs.run(given.mpm_par, SCENE, settings, given.work)
         row = {"geometry": geometry, "method": method, "cells": cells[0], "cells_high": cells[1],

@@ -40,7 +40,8 @@ def list_of_fronts():
         found = [f"{comma(row['method'])} {row['level']:.0f} ({percent(analysis.settled(row))}, "
                  f"{seconds(row['seconds'])})" for row in front]
         levels = ", ".join(map(str, case["levels"]))
-        lines.append(f"- **{case['title']}** (`{case['scene']}`, n = {levels}): {ABOUT[case['name']]}. " + "; ".join(found) + ".")
+        lines.append(f"- **{case['title']}** (`{case['scene']}`, n = {levels}): {ABOUT[case['name']]}. "
+                     + "; ".join(found) + ".")
     return "\n".join(lines) + "\n"
 
 

@@ -40,8 +40,16 @@ def place_of(scene, settings, folder):
     return Path(folder) / f"{Path(scene).stem}_{name}"
 
 
-def is_kept(scene, settings, folder):
-    return (place_of(scene, settings, folder) / "cost.json").exists()
+@functools.cache
+def identity(mpm_par):
+    return hashlib.sha256(Path(mpm_par).read_bytes()).hexdigest()
+
+
+def kept_cost(mpm_par, scene, settings, folder):
+    """The costs of a run that this very program made; None if there is none."""
+    file = place_of(scene, settings, folder) / "cost.json"
+    found = json.loads(file.read_text()) if file.exists() else {}
+    return found.get("cost") if found.get("program") == identity(mpm_par) else None
 
 
 def run(mpm_par, scene, settings, folder):
@@ -52,9 +60,9 @@ def run(mpm_par, scene, settings, folder):
     uses.
     """
     place = place_of(scene, settings, folder)
-    kept = place / "cost.json"
-    if kept.exists():
-        return place, json.loads(kept.read_text())
+    cost = kept_cost(mpm_par, scene, settings, folder)
+    if cost is not None:
+        return place, cost
     command = [str(mpm_par), str(scene), "--output", str(place)]
     for setting in settings:
         command += ["--set", setting]
@@ -79,7 +87,7 @@ def run(mpm_par, scene, settings, folder):
                  "particles": summary["particles"], "steps": summary["steps"],
                  "particle_steps": summary["particles"] * summary["steps"],
                  "energy_error": float(f"{summary['energy_error']:.4g}")}
-    kept.write_text(json.dumps(cost))
+    (place / "cost.json").write_text(json.dumps({"program": identity(mpm_par), "cost": cost}))
     return place, cost
 
 
