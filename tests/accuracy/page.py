@@ -11,7 +11,7 @@ import page_benchmarks
 import page_contact
 import page_loblolly
 import runs
-from words import percent, seconds
+from words import percent, seconds, wrapped
 
 PAGE = runs.PROJECT / "docs" / "accuracy.md"
 TEXT = Path(__file__).with_name("page.md")
@@ -67,7 +67,7 @@ def written():
     page = re.sub(r"{(error|seconds) (\w+), (\w+ \w+), (\d+)}", single, page)
     if "{" in page:
         raise RuntimeError(f"{TEXT.name}: nothing is known for {page[page.index('{'):][:30]}")
-    return page
+    return wrapped(page)
 
 
 def main():

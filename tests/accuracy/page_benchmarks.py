@@ -9,7 +9,7 @@ ABOUT = {
     "hill": "mean growth of the radii (Hill's solution with elastic strains)",
     "honeycomb_modulus": "modulus, against that of the plane solid by finite elements",
     "full_density": "stress of a crushed honeycomb beyond full density, over that of the solid",
-    "thin_wall": "stiffness in bending of a wall of n cells, against a fine reference",
+    "thin_wall": "stiffness in bending of a wall n cells thick, against Timoshenko's beam",
     "inclined_wall": "the same, the wall inclined to the grid",
     "gap": "width that is left when two blocks feel each other, over their length"}
 

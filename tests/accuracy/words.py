@@ -1,4 +1,5 @@
-"""Numbers as the page writes them."""
+"""Numbers, tables and lines as the page writes them."""
+import textwrap
 
 
 def percent(value, digits=2):
@@ -34,3 +35,18 @@ def giga(value):
 def table(heads, lines):
     return "\n".join(["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
                      + ["| " + " | ".join(line) + " |" for line in lines]) + "\n"
+
+
+def wrapped(page):
+    """Paragraphs and lists in lines of 100; tables, code, headings and figures as they are."""
+    def filled(block):
+        if block.startswith(("|", "```", "#", "!")):
+            return block
+        items = block.split("\n- ") if block.startswith("- ") else [block]
+        indent = "  " if block.startswith("- ") else ""
+        return "\n".join(textwrap.fill(" ".join(("- " * bool(k) + item).split()), 100,
+                                       subsequent_indent=indent, break_long_words=False,
+                                       break_on_hyphens=False) for k, item in enumerate(items))
+
+    blocks = [block.strip("\n") for block in page.split("\n\n")]
+    return "\n\n".join(filled(block) for block in blocks if block) + "\n"
