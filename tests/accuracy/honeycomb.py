@@ -1,0 +1,56 @@
+"""The crushed honeycomb at several resolutions, to 60 % strain: what early contact costs.
+
+    honeycomb.py MPM_PAR [--quick] [--work DIR] [--write]
+
+--write puts what is kept in DIR into docs/accuracy; --quick runs the three coarsest levels with one
+method and writes nothing.
+"""
+import argparse
+from pathlib import Path
+
+import numpy
+
+import runs
+from loblolly import figures
+
+SCENE = runs.PROJECT / "inputs" / "benchmarks" / "crushed_honeycomb.yaml"
+LEVELS = [[26, 27], [37, 38], [52, 54], [74, 77], [104, 108], [147, 153], [208, 216]]
+METHODS = ["linear flip", "gimp flip", "quadratic flip", "cubic flip"]
+LARGEST = {"gimp flip": 208, "quadratic flip": 208}  # others to 147 cells
+STRAINS = numpy.linspace(0, 0.6, 151)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__,
+                                        formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("mpm_par", type=Path)
+    arguments.add_argument("--quick", action="store_true")
+    arguments.add_argument("--work", type=Path, default=runs.PROJECT / "results" / "accuracy")
+    arguments.add_argument("--write", action="store_true")
+    given = arguments.parse_args()
+    plan = [(method, cells) for cells in LEVELS for method in METHODS
+            if cells[0] <= LARGEST.get(method, 147)]
+    if given.quick:
+        plan = [("gimp flip", cells) for cells in LEVELS[:3]]
+    rows, curves = [], {}
+    for method, cells in plan:
+        shape, scheme = method.split()
+        folder, cost = runs.run(given.mpm_par, SCENE,
+                                ["output.snapshots=0", f"grid.cells={cells}",
+                                 f"numerics.shape_function={shape}", f"numerics.scheme={scheme}"],
+                                given.work)
+        row = {"method": method, "cells": cells[0], **cost}
+        if cost["status"] == "ok":
+            found, curve = figures(folder, STRAINS)
+            row |= found
+            curves[f"{method} {cells[0]}"] = curve
+        rows.append(row)
+        print(" ".join(f"{key}={value}" for key, value in row.items()), flush=True)
+    if given.write and not given.quick:
+        runs.write_rows("honeycomb.csv", rows)
+        runs.write_curves("honeycomb_curves.csv", STRAINS, curves)
+        runs.write_machine(folder)
+
+
+if __name__ == "__main__":
+    main()
