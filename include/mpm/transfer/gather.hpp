@@ -88,9 +88,9 @@ template <int Dim>
 
 /// Gives a velocity gradient the divergence of the nodes (NodeFields::divergence_from_remap).
 template <int Dim, class Shape>
-[[gnu::noinline]] void take_divergence(const Stencil<Dim, Shape>& stencil,
-                                       const GridTopology<Dim>& grid, const NodeFields<Dim>& fields,
-                                       double* gradient)
+[[gnu::always_inline]] inline void take_divergence(const Stencil<Dim, Shape>& stencil,
+                                                   const GridTopology<Dim>& grid,
+                                                   const NodeFields<Dim>& fields, double* gradient)
 {
   constexpr int n = Shape::support, layers = Dim == 3 ? n : 1;
   const auto& w = stencil.weight;

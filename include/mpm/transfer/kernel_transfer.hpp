@@ -2,7 +2,7 @@
 /// The passes, compiled per dimension, shape function and scheme.
 
 #include <mpm/transfer/gather.hpp>
-#include <mpm/transfer/inversion.hpp>
+#include <mpm/transfer/particle_faults.hpp>
 #include <mpm/transfer/scatter.hpp>
 #include <mpm/transfer/scheme.hpp>
 #include <mpm/transfer/transfer.hpp>
@@ -188,10 +188,21 @@ class KernelTransfer final : public Transfer<Dim> {
     for (LocalIndex b = first; b < std::min(first + chunk, end); ++b) {
       Lanes x[Dim];
       load_all(particles.motion().block(b), Columns::position, x);
-      const Stencil<Dim, Shape> stencil(x, frame, shape_);
-      gather_gradient(stencil, grid, fields, gradient);
-      if (f_bar_) [[unlikely]]
-        take_divergence(stencil, grid, fields, gradient);
+      gather_gradient(Stencil<Dim, Shape>(x, frame, shape_), grid, fields, gradient);
+      gradient += Dim * Dim * lane_count;
+    }
+  }
+
+  /// F-bar, of the chunk that has just been gathered. Apart: nothing of it is kept at hand before.
+  [[gnu::noinline]] void take_divergences(const ParticleStore& particles, LocalIndex first,
+                                          int blocks, const GridFrame<Dim>& frame,
+                                          const GridTopology<Dim>& grid,
+                                          const NodeFields<Dim>& fields, double* gradient) const
+  {
+    for (LocalIndex b = first; b < first + blocks; ++b) {
+      Lanes x[Dim];
+      load_all(particles.motion().block(b), Columns::position, x);
+      take_divergence(Stencil<Dim, Shape>(x, frame, shape_), grid, fields, gradient);
       gradient += Dim * Dim * lane_count;
     }
   }
@@ -216,6 +227,8 @@ class KernelTransfer final : public Transfer<Dim> {
       double* state = particles.state().block(first);
       fetch_ahead<Content>(particles, std::min(first + blocks_ahead, part.end - 1));
       if constexpr (Content.gradient) {
+        if (f_bar_) [[unlikely]]
+          take_divergences(particles, first, blocks, frame, grid, fields, gradient);
         for (int k = 0; k < blocks; ++k) {
           const Lanes f = step_determinant<Dim>(gradient + k * Dim * Dim * lane_count, dt);
           if (!stdx::all_of(f > 0.0)) [[unlikely]]
@@ -316,28 +329,6 @@ class KernelTransfer final : public Transfer<Dim> {
       for (Lanes& a : affine) a *= mass;
     }
     scatter.template add<needs_affine>(stencil, mass, momentum, force_stress, affine);
-  }
-
-  /// Notes the first lost particle and puts all lost ones where memory is valid; the run ends
-  /// soon after.
-  void report_lost(const ParticleStore& particles, LocalIndex block, const LaneMask& reach,
-                   const Lanes (&v)[Dim], const MoveBounds<Dim>& bounds, Lanes (&x)[Dim],
-                   PassOutcome<Dim>& outcome) const
-  {
-    for (int lane = 0; lane < lane_count; ++lane) {
-      if (reach[lane]) continue;
-      const LocalIndex particle = block * lane_count + lane;
-      if (!outcome.lost && particle < particles.size()) {
-        outcome.lost.emplace();
-        outcome.lost->id = particles.ids()[particle];
-        for (int d = 0; d < Dim; ++d) {
-          outcome.lost->position[d] = x[d][lane];
-          outcome.lost->velocity[d] = v[d][lane];
-        }
-      }
-      for (int d = 0; d < Dim; ++d)
-        x[d][lane] = 0.5 * (bounds.reach_lower[d] + bounds.reach_upper[d]);
-    }
   }
 
   Shape shape_;

@@ -60,24 +60,20 @@ struct Stencil {
                                  const Shape& shape)
   {
     Lanes node = 0.0;
+    LaneMask at_wall(false);
     for (int d = 0; d < Dim; ++d) {
-      // Measured from node 0 of the whole grid: the same bits on any number of ranks.
-      Lanes x = (position[d] - frame.origin[d]) * frame.inverse_spacing[d];
-      Lanes first = stdx::floor(x - shape.base_shift());
-      Lanes w[support], g[support];
-      shape.weights(x - first, frame.gradient_scale[d], w, g);
+      const Lanes x = in_cells(position[d], frame, d);
+      const Lanes first = stdx::floor(x - shape.base_shift());
+      put(shape, frame, d, x, first, node);
       if constexpr (Shape::ends_at_walls)
-        if (stdx::any_of(x < frame.lower_wall[d] + shape.base_shift() ||
-                         x > frame.upper_wall[d] + (2 - support + shape.base_shift()))) [[unlikely]]
-          end_at_walls(shape, frame, d, x, first, w, g);
-      for (int a = 0; a < support; ++a) {
-        store(w[a], weight[d][a]);
-        store(g[a], gradient[d][a]);
-      }
-      node += (first - frame.lower[d]) * frame.stride[d];
-      local_[d] = x - first;
+        at_wall = at_wall || x < frame.lower_wall[d] + shape.base_shift() ||
+                  x > frame.upper_wall[d] + (2 - support + shape.base_shift());
     }
     store(node, base);
+    // Everything anew, from memory: what a call could change would be in no register above.
+    if constexpr (Shape::ends_at_walls)
+      if (stdx::any_of(at_wall)) [[unlikely]]
+        end_at_walls(position, frame, shape);
   }
 
   /// For the affine schemes.
@@ -115,29 +111,56 @@ struct Stencil {
   ///
   /// What has slipped behind a wall, by less than a cell, counts as standing at it: no weight is
   /// negative.
-  [[gnu::noinline]] static void end_at_walls(const Shape& shape, const GridFrame<Dim>& frame, int d,
-                                             Lanes& x, Lanes& first, Lanes (&w)[support],
-                                             Lanes (&g)[support])
+  [[gnu::noinline]] void end_at_walls(const Lanes (&position)[Dim], const GridFrame<Dim>& frame,
+                                      const Shape& shape)
   {
-    const double lower = frame.lower_wall[d], upper = frame.upper_wall[d];
-    stdx::where(x < lower && x > lower - 1.0, x) = lower;
-    // Just in front of it: the wall's node stays the last but one.
-    stdx::where(x >= upper && x < upper + 1.0, x) = std::nextafter(upper, lower);
-    first = stdx::floor(x - shape.base_shift());
-    shape.weights(x - first, frame.gradient_scale[d], w, g);
-    const auto hand_over = [](const LaneMask& where, Lanes(&values)[support], int ghost, int wall,
-                              int next) {
-      Lanes share = 0.0;
-      stdx::where(where, share) = values[ghost];
-      values[wall] += 2.0 * share;
-      values[next] -= share;
-      stdx::where(where, values[ghost]) = 0.0;
-    };
-    const LaneMask at_lower = first == lower - 1.0, at_upper = first == upper + (2.0 - support);
-    for (Lanes(*values)[support] : {&w, &g}) {
-      hand_over(at_lower, *values, 0, 1, 2);
-      hand_over(at_upper, *values, support - 1, support - 2, support - 3);
+    Lanes node = 0.0;
+    for (int d = 0; d < Dim; ++d) {
+      const double lower = frame.lower_wall[d], upper = frame.upper_wall[d];
+      Lanes x = in_cells(position[d], frame, d);
+      stdx::where(x < lower && x > lower - 1.0, x) = lower;
+      // Just in front of it: the wall's node stays the last but one.
+      stdx::where(x >= upper && x < upper + 1.0, x) = std::nextafter(upper, lower);
+      const Lanes first = stdx::floor(x - shape.base_shift());
+      put(shape, frame, d, x, first, node);
+      const LaneMask at_lower = first == lower - 1.0, at_upper = first == upper + (2.0 - support);
+      for (auto* values : {weight[d], gradient[d]}) {
+        hand_over(at_lower, values[0], values[1], values[2]);
+        hand_over(at_upper, values[support - 1], values[support - 2], values[support - 3]);
+      }
     }
+    store(node, base);
+  }
+
+  /// From the node behind a wall to the wall's and the next one.
+  static void hand_over(const LaneMask& where, double* behind, double* wall, double* next)
+  {
+    Lanes share = 0.0, rest = load(behind);
+    stdx::where(where, share) = rest;
+    stdx::where(where, rest) = 0.0;
+    store(load(wall) + 2.0 * share, wall);
+    store(load(next) - share, next);
+    store(rest, behind);
+  }
+
+  /// Measured from node 0 of the whole grid: the same bits on any number of ranks.
+  static Lanes in_cells(const Lanes& position, const GridFrame<Dim>& frame, int d)
+  {
+    return (position - frame.origin[d]) * frame.inverse_spacing[d];
+  }
+
+  /// Weights and gradients along one axis; adds its share to the number of the first node.
+  [[gnu::always_inline]] void put(const Shape& shape, const GridFrame<Dim>& frame, int d,
+                                  const Lanes& x, const Lanes& first, Lanes& node)
+  {
+    Lanes w[support], g[support];
+    shape.weights(x - first, frame.gradient_scale[d], w, g);
+    for (int a = 0; a < support; ++a) {
+      store(w[a], weight[d][a]);
+      store(g[a], gradient[d][a]);
+    }
+    node += (first - frame.lower[d]) * frame.stride[d];
+    local_[d] = x - first;
   }
 
   Lanes local_[Dim];  ///< position from the first node, in cells

@@ -1,4 +1,4 @@
-#include <mpm/transfer/inversion.hpp>
+#include <mpm/transfer/particle_faults.hpp>
 
 #include <Eigen/LU>
 #include <random>

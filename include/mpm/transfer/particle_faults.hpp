@@ -1,6 +1,6 @@
 #pragma once
-/// Steps that turn a particle inside out: what a law makes of b = f b f^T after such a step looks
-/// sound and means nothing.
+/// What ends a run at a particle: it went astray, or a step turned it inside out. What a law makes
+/// of b = f b f^T after such a step looks sound and means nothing.
 
 #include <mpm/transfer/transfer.hpp>
 
@@ -24,7 +24,7 @@ template <int Dim>
 /// Notes the first particle of the block whose determinant is not positive.
 template <int Dim>
 [[gnu::noinline]] void report_inverted(const ParticleStore& particles, LocalIndex block,
-                                       const Lanes& determinant, PassOutcome<Dim>& outcome)
+                                       Lanes determinant, PassOutcome<Dim>& outcome)
 {
   for (int lane = 0; lane < lane_count; ++lane) {
     const LocalIndex particle = block * lane_count + lane;
@@ -32,6 +32,29 @@ template <int Dim>
     outcome.lost = lost_particle<Dim>(particles, particle);
     outcome.lost->fault = Fault::inverted;
     outcome.lost->ratio = determinant[lane];
+  }
+}
+
+/// Notes the first lost particle and puts all lost ones where memory is valid; the run ends
+/// soon after.
+template <int Dim>
+void report_lost(const ParticleStore& particles, LocalIndex block, const LaneMask& reach,
+                 const Lanes (&v)[Dim], const MoveBounds<Dim>& bounds, Lanes (&x)[Dim],
+                 PassOutcome<Dim>& outcome)
+{
+  for (int lane = 0; lane < lane_count; ++lane) {
+    if (reach[lane]) continue;
+    const LocalIndex particle = block * lane_count + lane;
+    if (!outcome.lost && particle < particles.size()) {
+      outcome.lost.emplace();
+      outcome.lost->id = particles.ids()[particle];
+      for (int d = 0; d < Dim; ++d) {
+        outcome.lost->position[d] = x[d][lane];
+        outcome.lost->velocity[d] = v[d][lane];
+      }
+    }
+    for (int d = 0; d < Dim; ++d)
+      x[d][lane] = 0.5 * (bounds.reach_lower[d] + bounds.reach_upper[d]);
   }
 }
 
