@@ -7,7 +7,7 @@ namespace {
 class FBar : public TransferTest {};
 INSTANTIATE_TEST_SUITE_P(All, FBar,
                          testing::Combine(testing::ValuesIn(all_of_list<ShapeRow>()),
-                                          testing::Values(OneOf<SchemeRow>("flip"))),
+                                          testing::ValuesIn(all_of_list<SchemeRow>())),
                          case_name);
 
 constexpr double dt = 0.02;
