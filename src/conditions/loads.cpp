@@ -45,33 +45,36 @@ void Loads<Dim>::apply(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, d
   fields.add_load_force(grid.runs());
 }
 
+/// visit(axis, impulse of the loads, the node's updated velocities) for all owned nodes.
 template <int Dim>
-void Loads<Dim>::book(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt)
+template <class Visit>
+void Loads<Dim>::for_each_impulse(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt,
+                                  Visit visit)
 {
   if (loads_.empty()) return;
   for (const NodeRun<Dim>& run : grid.runs())
     for (LocalIndex node = run.first; node < run.first + run.length; ++node) {
       if (!grid.is_owned(node) || !fields.is_active(node)) continue;
-      const double* u = fields.updated_of(node);
-      for (int d = 0; d < Dim; ++d) {
-        const double impulse = dt * fields.load_force[std::size_t(node) * Dim + d];
-        reaction_.impulse[d] += impulse;
-        reaction_.work += impulse * (u[d] - 0.5 * u[Dim + d]);
-      }
+      for (int d = 0; d < Dim; ++d)
+        visit(d, dt * fields.load_force[std::size_t(node) * Dim + d], fields.updated_of(node));
     }
+}
+
+template <int Dim>
+void Loads<Dim>::book(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt)
+{
+  for_each_impulse(grid, fields, dt, [&](int d, double impulse, const double* u) {
+    reaction_.impulse[d] += impulse;
+    reaction_.work += impulse * (u[d] - 0.5 * u[Dim + d]);
+  });
 }
 
 template <int Dim>
 void Loads<Dim>::book_residual(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt)
 {
-  if (loads_.empty()) return;
-  for (const NodeRun<Dim>& run : grid.runs())
-    for (LocalIndex node = run.first; node < run.first + run.length; ++node) {
-      if (!grid.is_owned(node) || !fields.is_active(node)) continue;
-      const double* u = fields.updated_of(node);
-      for (int d = 0; d < Dim; ++d)
-        reaction_.work += dt * fields.load_force[std::size_t(node) * Dim + d] * u[Dim + d];
-    }
+  for_each_impulse(grid, fields, dt, [&](int d, double impulse, const double* u) {
+    reaction_.work += impulse * u[Dim + d];
+  });
 }
 
 template <int Dim>

@@ -23,14 +23,9 @@ void Step<Dim>::update_velocity(double dt)
 template <int Dim>
 void Step<Dim>::refine_velocity(double dt)
 {
-  using Fields = NodeFields<Dim>;
   for (Fields& field : fields) field.begin_refinement(grid().runs());
   for (int k = 0; k < extras.refinements; ++k) {
-    for (Fields& field : fields) field.reset_remap(grid().runs());
-    exchange.pass_and_sum(bodies, columns({&Fields::remap_column}), moment,
-                          [&](const BodyPart<Dim>& part) {
-                            return transfer.refine_velocity(part, grid(), fields_of(part));
-                          });
+    sum_remap(&Transfer<Dim>::refine_velocity);
     for (Fields& field : fields) {
       field.refine(grid().runs());
       for (const auto& condition : slots.conditions)
@@ -51,15 +46,19 @@ void Step<Dim>::constrain_gradient(double dt)
 }
 
 template <int Dim>
+void Step<Dim>::sum_remap(RemapPass pass)
+{
+  for (Fields& field : fields) field.reset_remap(grid().runs());
+  exchange.pass_and_sum(
+      bodies, columns({&Fields::remap_column}), moment,
+      [&](const BodyPart<Dim>& part) { return (transfer.*pass)(part, grid(), fields_of(part)); });
+}
+
+template <int Dim>
 void Step<Dim>::average_divergence()
 {
-  using Fields = NodeFields<Dim>;
   if (!extras.f_bar) return;
-  for (Fields& field : fields) field.reset_remap(grid().runs());
-  exchange.pass_and_sum(bodies, columns({&Fields::remap_column}), moment,
-                        [&](const BodyPart<Dim>& part) {
-                          return transfer.divergence(part, grid(), fields_of(part));
-                        });
+  sum_remap(&Transfer<Dim>::divergence);
   for (Fields& field : fields) field.divergence_from_remap(grid().runs());
 }
 

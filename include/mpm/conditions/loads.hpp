@@ -38,6 +38,10 @@ class Loads {
   void archive(Archive& archive) { reaction_.archive(archive); }
 
  private:
+  template <class Visit>
+  void for_each_impulse(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt,
+                        Visit visit);
+
   std::vector<std::unique_ptr<Load<Dim>>> loads_;
   bool on_particles_ = false;
   Reaction<Dim> reaction_;

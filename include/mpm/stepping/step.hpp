@@ -57,6 +57,11 @@ struct Step {
 
  private:
   void refine_velocity(double dt);
+  /// A pass that adds to the re-mapped momentum, from zero.
+  using RemapPass = PassOutcome<Dim> (Transfer<Dim>::*)(const BodyPart<Dim>&,
+                                                        const GridTopology<Dim>&,
+                                                        NodeFields<Dim>&) const;
+  void sum_remap(RemapPass pass);
 };
 
 }  // namespace mpm
