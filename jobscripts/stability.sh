@@ -5,7 +5,7 @@ set -eu
 case ${1-} in -h | --help) sed -n '2,3s/^# \{0,1\}//p' "$0"; exit 0 ;; esac
 cd "$(dirname "$0")/.."
 . jobscripts/environment.sh
-python=$(sed -n 's/^MPM_STUDY_PYTHON:FILEPATH=//p' build/CMakeCache.txt)
+python=$(sed -n 's/^MPM_STABILITY_PYTHON:FILEPATH=//p' build/CMakeCache.txt)
 export PYTHONDONTWRITEBYTECODE=1
 if [ "${1-}" = --quick ]; then exec "$python" tests/stability/atlas.py build/mpm_par --quick; fi
 worse=0
