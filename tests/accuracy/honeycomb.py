@@ -32,24 +32,15 @@ def main():
             if cells[0] <= LARGEST.get(method, 147)]
     if given.quick:
         plan = [("gimp flip", cells) for cells in LEVELS[:3]]
-    rows, curves = [], {}
+    table = runs.CurveTable(STRAINS, figures)
     for method, cells in plan:
         shape, scheme = method.split()
-        folder, cost = runs.run(given.mpm_par, SCENE,
-                                ["output.snapshots=0", f"grid.cells={cells}",
-                                 f"numerics.shape_function={shape}", f"numerics.scheme={scheme}"],
-                                given.work)
-        row = {"method": method, "cells": cells[0], **cost}
-        if cost["status"] == "ok":
-            found, curve = figures(folder, STRAINS)
-            row |= found
-            curves[f"{method} {cells[0]}"] = curve
-        rows.append(row)
-        print(" ".join(f"{key}={value}" for key, value in row.items()), flush=True)
+        settings = ["output.snapshots=0", f"grid.cells={cells}",
+                    f"numerics.shape_function={shape}", f"numerics.scheme={scheme}"]
+        table.add({"method": method, "cells": cells[0]},
+                  runs.run(given.mpm_par, SCENE, settings, given.work))
     if given.write and not given.quick:
-        runs.write_rows("honeycomb.csv", rows)
-        runs.write_curves("honeycomb_curves.csv", STRAINS, curves)
-        runs.write_machine(folder)
+        table.write("honeycomb")
 
 
 if __name__ == "__main__":

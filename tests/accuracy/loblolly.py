@@ -122,24 +122,15 @@ def main():
     if given.quick:
         plan = planned(METHODS[:1], 150)
     picture = base_picture(given.mpm_par, given.work)
-    rows, curves = [], {}
+    table = runs.CurveTable(STRAINS, figures)
     for geometry, method, cells in plan:
         settings = settings_of(geometry, method, cells, picture)
         if given.kept and not runs.kept_cost(given.mpm_par, SCENE, settings, given.work):
             continue
-        folder, cost = runs.run(given.mpm_par, SCENE, settings, given.work)
-        row = {"geometry": geometry, "method": method, "cells": cells[0], "cells_high": cells[1],
-               **cost}
-        if cost["status"] == "ok":
-            found, curve = figures(folder, STRAINS)
-            row |= found
-            curves[f"{geometry} {method} {cells[0]}"] = curve
-        rows.append(row)
-        print(" ".join(f"{key}={value}" for key, value in row.items()), flush=True)
+        table.add({"geometry": geometry, "method": method, "cells": cells[0],
+                   "cells_high": cells[1]}, runs.run(given.mpm_par, SCENE, settings, given.work))
     if given.write and not given.quick:
-        runs.write_rows("loblolly.csv", rows)
-        runs.write_curves("loblolly_curves.csv", STRAINS, curves)
-        runs.write_machine(folder)
+        table.write("loblolly")
 
 
 if __name__ == "__main__":

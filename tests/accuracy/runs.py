@@ -110,6 +110,31 @@ def write_curves(name, strains, curves):
             writer.writerow([f"{strain:.4g}", *(f"{stress[k]:.5g}" for stress in curves.values())])
 
 
+class CurveTable:
+    """Rows of runs and their curves over `strains`; figures(folder, strains) finds both."""
+
+    def __init__(self, strains, figures):
+        self.strains, self.figures = strains, figures
+        self.rows, self.curves = [], {}
+
+    def add(self, head, run):
+        """A row: `head`, what run() returned, and the figures of a run that ended. Shows it."""
+        self.folder, cost = run
+        row = head | cost
+        if cost["status"] == "ok":
+            found, curve = self.figures(self.folder, self.strains)
+            row |= found
+            name = " ".join(str(head[key]) for key in ("geometry", "method", "cells") if key in head)
+            self.curves[name] = curve
+        self.rows.append(row)
+        print(" ".join(f"{key}={value}" for key, value in row.items()), flush=True)
+
+    def write(self, name):
+        write_rows(f"{name}.csv", self.rows)
+        write_curves(f"{name}_curves.csv", self.strains, self.curves)
+        write_machine(self.folder)
+
+
 def write_machine(folder):
     """The machine that the seconds belong to and the version that ran, from one run's summary."""
     from machine import machine
