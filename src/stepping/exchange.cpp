@@ -54,6 +54,22 @@ Exchange<Dim>::Exchange(Decomposition<Dim> decomposition, const Transfer<Dim>& t
   near_.assign(topology_.size(), 0);
   for (const LocalIndex node : halo_.shared_nodes()) near_[node] = 1;
   grow<Dim>(near_, topology_.local().count(), transfer.support(), 1);
+  if (transfer.ends_at_walls()) mark_near_walls();
+}
+
+/// A stencil reaches beyond a wall when its first node lies below the lower one, or its last above
+/// the upper one; and it may move by one node before the next sort.
+template <int Dim>
+void Exchange<Dim>::mark_near_walls()
+{
+  const IndexBox<Dim>& local = topology_.local();
+  for (LocalIndex node = 0; node < topology_.size(); ++node)
+    for (int d = 0; d < Dim; ++d) {
+      const auto& [below, above] = topology_.geometry().walls[std::size_t(d)];
+      const LocalIndex at = local.lower[d] + node / topology_.stride(d) % local.count()[d];
+      if ((below && at <= *below) || (above && at + transfer_.support() > *above))
+        near_[std::size_t(node)] = 1;
+    }
 }
 
 template <int Dim>
@@ -73,7 +89,9 @@ void Exchange<Dim>::visit_interior(Bodies& bodies, const PartVisit& visit)
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (LocalIndex first = orders_[b].near_end; first < orders_[b].rest;
          first += blocks_between_looks) {
-      visit({bodies[b], first, std::min(first + blocks_between_looks, orders_[b].rest)}, b);
+      constexpr bool is_interior = true;
+      const LocalIndex end = std::min(first + blocks_between_looks, orders_[b].rest);
+      visit({bodies[b], first, end, is_interior}, b);
       halo_.advance();
     }
 }
@@ -176,7 +194,7 @@ std::vector<LocalIndex> Exchange<Dim>::sort(Bodies& bodies)
   return topology_.end_activity(transfer_.support());
 }
 
-/// Those near other ranks first, and both parts by the first node of the stencil.
+/// Those near other ranks and walls first, and both parts by the first node of the stencil.
 template <int Dim>
 void Exchange<Dim>::sort_body(std::size_t number, ParticleStore& particles)
 {

@@ -20,8 +20,9 @@ struct Moment {
   double time;  ///< s
 };
 
-/// In every pass the particles near other ranks come first; the rest are done while the sums on
-/// shared nodes, and the particles that leave, are under way.
+/// In every pass the particles near other ranks come first, and those near walls at which shape
+/// functions end; the rest are done while the sums on shared nodes, and the particles that leave,
+/// are under way.
 template <int Dim>
 class Exchange {
  public:
@@ -67,8 +68,8 @@ class Exchange {
   void archive(Archive& archive);
 
  private:
-  /// Blocks of a body: [0, near_end) may touch shared nodes, [near_end, rest) do not, and from
-  /// `rest` on stand arrivals since the last sort.
+  /// Blocks of a body: [0, near_end) may touch shared nodes or walls, [near_end, rest) do not, and
+  /// from `rest` on stand arrivals since the last sort.
   struct Order {
     LocalIndex near_end = 0, rest = 0;
   };
@@ -80,6 +81,7 @@ class Exchange {
   void visit_interior(Bodies& bodies, const PartVisit& visit);
   void collect_leavers(Bodies& bodies, const Moment& moment);
   void exchange_leavers(Bodies& bodies);
+  void mark_near_walls();
   void sort_body(std::size_t number, ParticleStore& particles);
   void archive_part(Archive& archive) const;
   void archive_loss(Archive& archive);
@@ -90,7 +92,8 @@ class Exchange {
   Halo halo_;
   Migration<Dim> migration_;
   MoveBounds<Dim> bounds_;
-  std::vector<char> near_;  ///< stencils with this first node may come to touch shared nodes
+  /// Stencils with this first node may come to touch shared nodes, or walls at which they end.
+  std::vector<char> near_;
 
   std::optional<Loss> loss_;
   GlobalIndex migrated_ = 0;

@@ -30,6 +30,7 @@ class KernelTransfer final : public Transfer<Dim> {
 
   std::vector<Column> motion_columns(bool musl) const override { return Columns::columns(musl); }
   int support() const override { return Shape::support; }
+  bool ends_at_walls() const override { return Shape::ends_at_walls; }
 
   void first_nodes(const ParticleStore& particles, const GridTopology<Dim>& grid,
                    std::vector<LocalIndex>& nodes) const override
@@ -60,7 +61,7 @@ class KernelTransfer final : public Transfer<Dim> {
   void load_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid, NodeFields<Dim>& fields,
                   const typename Transfer<Dim>::BlockForce& force) const override
   {
-    const GridFrame<Dim> frame(grid);
+    const GridFrame<Dim> frame(grid, !part.interior);
     for (LocalIndex b = part.first; b < part.end; ++b) {
       Lanes x[Dim], f[Dim];
       for (Lanes& component : f) component = 0.0;
@@ -83,7 +84,7 @@ class KernelTransfer final : public Transfer<Dim> {
   PassOutcome<Dim> divergence(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                               NodeFields<Dim>& fields) const override
   {
-    const GridFrame<Dim> frame(grid);
+    const GridFrame<Dim> frame(grid, !part.interior);
     Scatter<Dim, Shape, ScatterContent{.remap = true}> scatter(grid, fields);
     alignas(lane_alignment) double gradient[Dim * Dim * lane_count];
     for (LocalIndex b = part.first; b < part.end; ++b) {
@@ -215,7 +216,8 @@ class KernelTransfer final : public Transfer<Dim> {
     alignas(lane_alignment) double gradient[chunk * Dim * Dim * lane_count];
     alignas(lane_alignment) double force_stress[chunk * stress_width];
 
-    const GridFrame<Dim> frame(grid), force_frame = frame.with_negative_gradients();
+    const GridFrame<Dim> frame(grid, !part.interior), force_frame = frame.with_negative_gradients();
+    [[maybe_unused]] const double rate = 1 / dt;
     PassOutcome<Dim> outcome;
     Lanes largest_speed = 0.0;
     Scatter<Dim, Shape, Content.scatter> scatter(grid, fields);
@@ -230,9 +232,9 @@ class KernelTransfer final : public Transfer<Dim> {
         if (f_bar_) [[unlikely]]
           take_divergences(particles, first, blocks, frame, grid, fields, gradient);
         for (int k = 0; k < blocks; ++k) {
-          const Lanes f = step_determinant<Dim>(gradient + k * Dim * Dim * lane_count, dt);
+          const Lanes f = step_determinant<Dim>(gradient + k * Dim * Dim * lane_count, rate);
           if (!stdx::all_of(f > 0.0)) [[unlikely]]
-            report_inverted(particles, first + k, f, outcome);
+            report_inverted(particles, first + k, f, dt, outcome);
         }
         part.body.law->update(state, blocks, gradient, dt, force_stress);
         // The law's arithmetic is one long chain; what the next blocks gather fills its gaps.

@@ -18,6 +18,7 @@ struct GridFrame {
   double gradient_scale[Dim];                              ///< 1/m
   double lower[Dim], stride[Dim];                          ///< of the local node numbering
   double lower_wall[Dim], upper_wall[Dim];  ///< node on which a wall stands, or infinite
+  bool near_walls;                          ///< whether a stencil may reach beyond one of them
 
   /// Turns the sign of gradients: the minus of f = - sum V0 tau g costs nothing there.
   GridFrame with_negative_gradients() const
@@ -27,7 +28,8 @@ struct GridFrame {
     return frame;
   }
 
-  explicit GridFrame(const GridTopology<Dim>& grid)
+  explicit GridFrame(const GridTopology<Dim>& grid, bool may_be_near_walls = true)
+      : near_walls(may_be_near_walls)
   {
     for (int d = 0; d < Dim; ++d) {
       origin[d] = grid.geometry().origin[d];
@@ -60,19 +62,15 @@ struct Stencil {
                                  const Shape& shape)
   {
     Lanes node = 0.0;
-    LaneMask at_wall(false);
     for (int d = 0; d < Dim; ++d) {
       const Lanes x = in_cells(position[d], frame, d);
       const Lanes first = stdx::floor(x - shape.base_shift());
       put(shape, frame, d, x, first, node);
-      if constexpr (Shape::ends_at_walls)
-        at_wall = at_wall || x < frame.lower_wall[d] + shape.base_shift() ||
-                  x > frame.upper_wall[d] + (2 - support + shape.base_shift());
     }
     store(node, base);
     // Everything anew, from memory: what a call could change would be in no register above.
     if constexpr (Shape::ends_at_walls)
-      if (stdx::any_of(at_wall)) [[unlikely]]
+      if (frame.near_walls) [[unlikely]]
         end_at_walls(position, frame, shape);
   }
 
@@ -114,6 +112,7 @@ struct Stencil {
   [[gnu::noinline]] void end_at_walls(const Lanes (&position)[Dim], const GridFrame<Dim>& frame,
                                       const Shape& shape)
   {
+    if (!reaches_beyond_walls(position, frame, shape)) return;
     Lanes node = 0.0;
     for (int d = 0; d < Dim; ++d) {
       const double lower = frame.lower_wall[d], upper = frame.upper_wall[d];
@@ -130,6 +129,18 @@ struct Stencil {
       }
     }
     store(node, base);
+  }
+
+  static bool reaches_beyond_walls(const Lanes (&position)[Dim], const GridFrame<Dim>& frame,
+                                   const Shape& shape)
+  {
+    LaneMask beyond(false);
+    for (int d = 0; d < Dim; ++d) {
+      const Lanes x = in_cells(position[d], frame, d);
+      beyond = beyond || x < frame.lower_wall[d] + shape.base_shift() ||
+               x > frame.upper_wall[d] + (2 - support + shape.base_shift());
+    }
+    return stdx::any_of(beyond);
   }
 
   /// From the node behind a wall to the wall's and the next one.

@@ -60,9 +60,13 @@ template <int Dim>
 struct BodyPart {
   Body<Dim>& body;
   LocalIndex first, end;
+  bool interior = false;  ///< no stencil reaches beyond a wall at rest
 
   BodyPart(Body<Dim>& whole) : body(whole), first(0), end(whole.particles.blocks()) {}
-  BodyPart(Body<Dim>& of, LocalIndex from, LocalIndex to) : body(of), first(from), end(to) {}
+  BodyPart(Body<Dim>& of, LocalIndex from, LocalIndex to, bool is_interior = false)
+      : body(of), first(from), end(to), interior(is_interior)
+  {
+  }
 };
 
 /// Textbook names: P2G, G2P. Each pass is compiled for one dimension, shape function and scheme;
@@ -75,6 +79,8 @@ class Transfer {
   virtual std::vector<Column> motion_columns(bool musl) const = 0;
   /// Nodes per axis of a stencil, and how far its first node may lie below the particle's cell.
   virtual int support() const = 0;
+  /// Whether stencils that reach beyond a wall at rest are made to end there.
+  virtual bool ends_at_walls() const = 0;
   /// First node of each particle's stencil, local numbering (for sorting).
   virtual void first_nodes(const ParticleStore& particles, const GridTopology<Dim>& grid,
                            std::vector<LocalIndex>& nodes) const = 0;

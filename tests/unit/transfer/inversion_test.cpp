@@ -17,7 +17,7 @@ void expect_the_determinant_of_every_lane()
   using Matrix = Eigen::Matrix<double, Dim, Dim>;
   alignas(lane_alignment) double gradient[Dim * Dim * lane_count];
   for (double& value : gradient) value = component(random);
-  const Lanes found = step_determinant<Dim>(gradient, dt);
+  const Lanes found = step_determinant<Dim>(gradient, 1 / dt) * std::pow(dt, Dim);
   for (int lane = 0; lane < lane_count; ++lane) {
     Matrix f = Matrix::Identity();
     for (int i = 0; i < Dim; ++i)
@@ -44,8 +44,8 @@ TEST(Inversion, FirstParticleIsNamedAndPaddingIsNot)
   particles.seal();
   const auto report = [&](int inverted) {
     PassOutcome<2> outcome;
-    const Lanes determinant([&](auto lane) { return int(lane) == inverted ? -0.5 : 1.0; });
-    report_inverted(particles, 0, determinant, outcome);
+    const Lanes determinant([&](auto lane) { return int(lane) == inverted ? -2.0 : 4.0; });
+    report_inverted(particles, 0, determinant, 0.5, outcome);
     return outcome.lost;
   };
   ASSERT_TRUE(report(1).has_value());
