@@ -37,6 +37,13 @@ void Step<Dim>::refine_velocity(double dt)
 }
 
 template <int Dim>
+void Step<Dim>::remap_velocity()
+{
+  sum_remap(&Transfer<Dim>::musl_velocity);
+  for (Fields& field : fields) field.gradient_from_remap(grid().runs());
+}
+
+template <int Dim>
 void Step<Dim>::constrain_gradient(double dt)
 {
   for (const auto& contact : slots.contacts) contact->exchange_gradient(grid(), fields, time(), dt);

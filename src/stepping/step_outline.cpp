@@ -29,6 +29,7 @@ class Notes {
     std::string* name;
     Nothing musl_velocity(auto&&...) const { return note("musl_velocity"); }
     Nothing musl_stress(auto&&...) const { return note("musl_stress"); }
+    Nothing usavg_stress(auto&&...) const { return note("usavg_stress"); }
     Nothing usf_stress(auto&&...) const { return note("usf_stress"); }
     Nothing usf_velocity(auto&&...) const { return note("usf_velocity"); }
     Nothing usl(auto&&...) const { return note("usl"); }
@@ -79,6 +80,11 @@ class Notes {
       transfer.refine_velocity();
       add(columns({&Fields::remap_column}));
     }
+  }
+  void remap_velocity()
+  {
+    transfer.musl_velocity();
+    add(columns({&Fields::remap_column}));
   }
   void constrain_gradient(double) {}
   void average_divergence()

@@ -173,6 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, SavedRun,
                                            Method{"quadratic", "apic", "musl"},
                                            Method{"gimp", "flip", "usf"},
                                            Method{"gimp", "flip", "usl"},
+                                           Method{"gimp", "flip", "usavg"},
                                            Method{"cubic", "fmpm", "musl"}),
                          [](const auto& info) { return name_of(info.param); });
 

@@ -116,6 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, FlyingBlock,
                                            Method{quadratic, tpic, "musl"},
                                            Method{quadratic, apic, "usf"}, Method{gimp, pic, "usf"},
                                            Method{gimp, flip, "usl"}, Method{cubic, fmpm, "musl"},
+                                           Method{quadratic, flip, "usavg"},
                                            Method{linear, fmpm, "usf"}),
                          [](const auto& info) { return name_of(info.param); });
 

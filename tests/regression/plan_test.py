@@ -103,11 +103,12 @@ class Plan(ProgramTest):
 
     def test_usf_and_usl_hold_no_re_mapped_momentum(self):
         for order, passes in (("usf", ["usf_stress", "usf_velocity"]), ("usl", ["usl"]),
-                              ("musl", ["musl_velocity", "musl_stress"])):
+                              ("musl", ["musl_velocity", "musl_stress"]),
+                              ("usavg", ["usf_stress", "musl_velocity", "usavg_stress"])):
             with self.subTest(order):
                 plan = self.planned("confined_block", f"numerics.update_order={order}")
                 self.assertEqual(plan["passes"], passes)
-                maps_back = order == "musl"
+                maps_back = order in ("musl", "usavg")
                 self.assertEqual("remapped_momentum" in plan["nodes"]["bytes"], maps_back)
                 self.assertEqual("grid_velocity" in plan["particles"]["cell_wall"]["bytes"],
                                  maps_back)
@@ -124,6 +125,7 @@ class Plan(ProgramTest):
 
     def test_messages_and_bytes_of_a_step_are_those_that_are_sent(self):
         for settings in ([], ["numerics.update_order=usl"], ["numerics.update_order=usf"],
+                         ["numerics.update_order=usavg"],
                          ["numerics.scheme=fmpm", "numerics.update_order=usf"],
                          [LOAD.replace("ACCELERATION", "[1 m/s^2, 0 m/s^2]")]):
             with self.subTest(settings=settings):

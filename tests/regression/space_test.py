@@ -33,7 +33,8 @@ class BlockInSpace(ExactLine):
 
     def test_shape_functions_schemes_and_orders(self):
         for setting in ("numerics.shape_function=linear", "numerics.scheme=tpic",
-                        "numerics.update_order=usf", "numerics.update_order=usl"):
+                        "numerics.update_order=usf", "numerics.update_order=usl",
+                        "numerics.update_order=usavg"):
             with self.subTest(setting):
                 self.compare(setting, scene=BLOCK)
 

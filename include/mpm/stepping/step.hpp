@@ -35,6 +35,9 @@ struct Step {
 
   /// v_i = ((mv)_i + dt f_i) / m_i with the loads' forces; contact and conditions; refinements.
   void update_velocity(double dt);
+  /// G2P of the updated velocity, and the gradient velocity from the momentum that it has once the
+  /// particles map it back.
+  void remap_velocity();
   /// Velocities whose gradient is taken, at time() + dt: contact and conditions.
   void constrain_gradient(double dt);
   /// F-bar, once the gradient velocities stand: the mean of their divergence around every node,

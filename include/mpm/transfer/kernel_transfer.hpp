@@ -14,9 +14,10 @@ namespace mpm {
 
 /// What a pass does, in this order.
 struct PassContent {
-  bool refine = false;    ///< G2P of the residual velocity, and nothing else
-  bool gradient = false;  ///< velocity gradient at the old place, stress update
-  bool velocity = false;  ///< G2P of the velocity
+  bool refine = false;       ///< G2P of the residual velocity, and nothing else
+  bool gradient = false;     ///< velocity gradient at the old place, stress update
+  bool half_stress = false;  ///< by half of the step
+  bool velocity = false;     ///< G2P of the velocity
   bool move = false;
   ScatterContent scatter;  ///< P2G at the new place
 };
@@ -134,6 +135,17 @@ class KernelTransfer final : public Transfer<Dim> {
         part, grid, fields, dt, &bounds);
   }
 
+  PassOutcome<Dim> usavg_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                NodeFields<Dim>& fields, double dt,
+                                const MoveBounds<Dim>& bounds) const override
+  {
+    return pass<PassContent{.gradient = true,
+                            .half_stress = true,
+                            .move = true,
+                            .scatter = {.mass = true, .momentum = true}}>(part, grid, fields, dt,
+                                                                          &bounds);
+  }
+
   PassOutcome<Dim> usl(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                        NodeFields<Dim>& fields, double dt,
                        const MoveBounds<Dim>& bounds) const override
@@ -151,17 +163,6 @@ class KernelTransfer final : public Transfer<Dim> {
   static constexpr int chunk = std::max(1, 8 / lane_count);
   /// From asking for a block to working on it.
   static constexpr int blocks_ahead = 4 * chunk;
-
-  template <int N>
-  static void load_all(const double* block, int column, Lanes (&values)[N])
-  {
-    for (int k = 0; k < N; ++k) values[k] = load(block + (column + k) * lane_count);
-  }
-  template <int N>
-  static void store_all(const Lanes (&values)[N], double* block, int column)
-  {
-    for (int k = 0; k < N; ++k) store(values[k], block + (column + k) * lane_count);
-  }
 
   /// Asks for the columns of a block that is worked on soon: the processor sees by itself that they
   /// lie in order, but not early enough. (Inlined, because GCC drops calls that only ask.)
@@ -217,7 +218,8 @@ class KernelTransfer final : public Transfer<Dim> {
     alignas(lane_alignment) double force_stress[chunk * stress_width];
 
     const GridFrame<Dim> frame(grid, !part.interior), force_frame = frame.with_negative_gradients();
-    [[maybe_unused]] const double rate = 1 / dt;
+    [[maybe_unused]] const double stress_dt = Content.half_stress ? 0.5 * dt : dt;
+    [[maybe_unused]] const double rate = 1 / stress_dt;
     PassOutcome<Dim> outcome;
     Lanes largest_speed = 0.0;
     Scatter<Dim, Shape, Content.scatter> scatter(grid, fields);
@@ -234,9 +236,9 @@ class KernelTransfer final : public Transfer<Dim> {
         for (int k = 0; k < blocks; ++k) {
           const Lanes f = step_determinant<Dim>(gradient + k * Dim * Dim * lane_count, rate);
           if (!stdx::all_of(f > 0.0)) [[unlikely]]
-            report_inverted(particles, first + k, f, dt, outcome);
+            report_inverted(particles, first + k, f, stress_dt, outcome);
         }
-        part.body.law->update(state, blocks, gradient, dt, force_stress);
+        part.body.law->update(state, blocks, gradient, stress_dt, force_stress);
         // The law's arithmetic is one long chain; what the next blocks gather fills its gaps.
         gather_gradients(particles, first + chunk, part.end, frame, grid, fields, gradient);
       } else if constexpr (Content.scatter.force) {

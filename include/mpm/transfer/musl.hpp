@@ -15,12 +15,7 @@ struct Musl {
   {
     using Fields = typename Step::Fields;
     s.update_velocity(dt);  // v_i = ((mv)_i + dt f_i) / m_i
-    for (Fields& field : s.fields) field.reset_remap(s.grid().runs());
-    s.exchange.pass_and_sum(
-        s.bodies, s.columns({&Fields::remap_column}), s.moment, [&](const auto& part) {
-          return s.transfer.musl_velocity(part, s.grid(), s.fields_of(part));  // v_p, and back:
-        });                                                                    // (mv)_i
-    for (Fields& field : s.fields) field.gradient_from_remap(s.grid().runs());
+    s.remap_velocity();     // v_p, and back: (mv)_i
     s.constrain_gradient(dt);
     s.average_divergence();
 

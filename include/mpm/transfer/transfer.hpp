@@ -120,6 +120,12 @@ class Transfer {
   virtual PassOutcome<Dim> usf_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                         NodeFields<Dim>& fields, double dt,
                                         const MoveBounds<Dim>& bounds) const = 0;
+  // USAVG: stress and force as in USF by half a step, velocity as in MUSL, and:
+  /// Velocity gradient at the old place, stress by half a step, move; P2G of mass and momentum at
+  /// the new place.
+  virtual PassOutcome<Dim> usavg_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                        NodeFields<Dim>& fields, double dt,
+                                        const MoveBounds<Dim>& bounds) const = 0;
   // USL, one pass.
   virtual PassOutcome<Dim> usl(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                NodeFields<Dim>& fields, double dt,

@@ -1,4 +1,4 @@
-// The passes of MUSL, USF and USL, one after the other, against the naive formulae.
+// The passes of MUSL, USF, USAVG and USL, one after the other, against the naive formulae.
 #include "expect_equal.hpp"
 
 namespace mpm {
@@ -85,6 +85,31 @@ TEST_P(UpdateOrders, UsfUpdatesStressAtTheOldPlaceThenVelocityAndPlace)
 {
   expect_usf<2>(parameters());
   expect_usf<3>(parameters());
+}
+
+/// The half with which the step ends; the other one is USF's.
+template <int Dim>
+void expect_usavg(TransferCase c)
+{
+  Cloud<Dim> cloud(c, true);
+  cloud.set_random_velocities();
+  cloud.transfer->musl_velocity(cloud.body, cloud.grid.topology, cloud.grid.fields);
+  cloud.naive.velocity_to_particles(cloud.nodes, cloud.particles);
+  cloud.transfer->usavg_stress(cloud.body, cloud.grid.topology, cloud.grid.fields, dt,
+                               cloud.wide_bounds());
+  cloud.naive.stress_update(cloud.nodes, cloud.particles, 0.5 * dt);
+  cloud.naive.move(cloud.particles, dt);
+  forget_sums<Dim>(cloud.nodes);
+  cloud.naive.to_grid(cloud.particles, cloud.nodes);
+  for (NaiveNode<Dim>& node : cloud.nodes) node.force.setZero();
+  expect_particles_equal(cloud);
+  expect_nodes_equal(cloud);
+}
+
+TEST_P(UpdateOrders, UsavgEndsWithHalfOfTheStrainAndAWholeMove)
+{
+  expect_usavg<2>(parameters());
+  expect_usavg<3>(parameters());
 }
 
 template <int Dim>

@@ -1,0 +1,46 @@
+#pragma once
+#include <mpm/transfer/order.hpp>
+
+namespace mpm {
+
+/// Update stress averaged: one half of the step's strain before the forces, of the velocities that
+/// they find, and one half after, of the particles' new velocities, mapped back (Bardenhagen 2002,
+/// JCP 180:383; Nairn 2003, CMES 4:649). Stress and velocity stand at the same moment between
+/// steps.
+struct Usavg {
+  static constexpr UpdateOrderRow row{.keyword = "usavg",
+                                      .help = "half of the strain before the forces, half after",
+                                      .words = "USAVG",
+                                      .remaps = true,
+                                      .begins_with_force = false,
+                                      .stress_moment = 0};
+
+  template <class Step>
+  static void step(Step& s, double dt)
+  {
+    using Fields = typename Step::Fields;
+    for (Fields& field : s.fields) field.gradient_from_momentum(s.grid().runs());
+    s.constrain_gradient(0);
+    s.average_divergence();
+    s.exchange.pass_and_sum(
+        s.bodies, s.columns({&Fields::force_column}), s.moment, [&](const auto& part) {
+          // sigma_p of half the step; f_i
+          return s.transfer.usf_stress(part, s.grid(), s.fields_of(part), 0.5 * dt);
+        });
+    s.update_velocity(dt);
+    s.remap_velocity();
+    s.constrain_gradient(dt);
+    s.average_divergence();
+
+    s.reset();
+    s.exchange.move_and_sum(
+        s.bodies, s.sums({&Fields::mass_column, &Fields::momentum_column}), s.moment, dt,
+        [&](const auto& part, const auto& bounds) {
+          // sigma_p of the other half, x_p; m_i, (mv)_i
+          return s.with_loads(
+              part, dt, s.transfer.usavg_stress(part, s.grid(), s.fields_of(part), dt, bounds));
+        });
+  }
+};
+
+}  // namespace mpm
