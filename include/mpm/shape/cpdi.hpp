@@ -10,15 +10,16 @@ namespace mpm {
 /// s_ck = -1 or 1, and R = (r_1, r_2, ...):
 ///   w_i = 2^-Dim sum_c N_i(x_c),   grad w_i = 2^-Dim R^-T sum_c s_c N_i(x_c).
 struct Cpdi {
-  /// With USL the stable step of a bar falls as it is pressed, from 0.65 at rest: the limit is that
-  /// of half the length.
+  /// Limits of a bar pressed to half its length, the smallest ones (at rest 1.73 with FLIP). Those
+  /// of affine schemes are what crushed wood bears: the bar 0.9 at rest, and 0.69 at half its
+  /// length.
   static constexpr ShapeRow row{.keyword = "cpdi",
                                 .help = "CPDI (particle domains that deform)",
                                 .words = "CPDI",
-                                .stable_cfl = {.increments = 1.73,
-                                               .velocities = 1.48,
+                                .stable_cfl = {.increments = 1.65,
+                                               .velocities = 1.4,
                                                .affine = 0.9,
-                                               .refined = 1.02,
+                                               .refined = 0.88,
                                                .stress_last = 0.5},
                                 .cfl_share = 0.7,
                                 .step_cost = 115};
@@ -33,6 +34,10 @@ struct Cpdi {
 
   /// Cells: how far a corner may be from its particle along each axis.
   static constexpr double farthest_corner = 1.0;
+  /// Of a particle at rest: what the reach of a domain along an axis does not fall below. As
+  /// domains go to nothing the weights go to hat functions, for which affine schemes and USL have
+  /// no stable step at free edges.
+  static constexpr double smallest_reach = 0.5;
   /// Of det R in cells: below it, or inverted, the domain counts as the box of a particle at rest.
   static constexpr double smallest_volume = 1e-9;
 
@@ -40,14 +45,17 @@ struct Cpdi {
 
   /// `axes`: component d of r_k at d + Dim * k, in cells of axis d. Shortens along each axis by
   /// itself what reaches too far (a limit in the spirit of Homel, Brannon & Guilkey 2016, IJNME
-  /// 109:1013): a domain that is long in one direction keeps its width in the others.
+  /// 109:1013), so that a domain that is long in one direction keeps its width in the others, and
+  /// lengthens what reaches not far enough.
   template <int Dim>
   [[gnu::always_inline]] void limit(Lanes (&axes)[Dim * Dim]) const
   {
     for (int d = 0; d < Dim; ++d) {
-      Lanes reach = 0.0;
+      Lanes reach = 1e-30;  // a domain without any is mended below
       for (int k = 0; k < Dim; ++k) reach += stdx::abs(axes[d + Dim * k]);
-      const Lanes share = farthest_corner / stdx::max(reach, Lanes(farthest_corner));
+      const Lanes seen =
+          stdx::min(stdx::max(reach, Lanes(smallest_reach * half_size)), Lanes(farthest_corner));
+      const Lanes share = seen / reach;
       for (int k = 0; k < Dim; ++k) axes[d + Dim * k] *= share;
     }
     const LaneMask sound = determinant<Dim>(axes) > smallest_volume;

@@ -155,7 +155,7 @@ struct Cloud {
     const std::size_t k = particles.size();
     if (k == 7) return Matrix<Dim>::Zero();
     if (k == 8) return rest.colwise().reverse();  // inside out
-    return (k % 4 == 0 ? 6 : 1) * stretch * rest;
+    return (k % 4 == 0 ? 6 : k % 4 == 1 ? 0.2 : 1) * stretch * rest;
   }
   ParticleStore store(bool musl) const
   {

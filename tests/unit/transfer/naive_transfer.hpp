@@ -113,14 +113,16 @@ struct NaiveTransfer {
     return g;
   }
 
-  /// CPDI: what the weights see of a domain. Along no axis a corner is farther than a cell; a
-  /// domain without volume is that of a particle at rest.
+  /// CPDI: what the weights see of a domain. Along no axis it reaches farther than a cell, or less
+  /// than half of what it does at rest; a domain without volume is that of a particle at rest.
   Matrix<Dim> seen_domain(const NaiveParticle<Dim>& p) const
   {
     Matrix<Dim> seen = p.domain;
     for (int d = 0; d < Dim; ++d) {
       const double reach = p.domain.row(d).cwiseAbs().sum();
       if (reach > h[d]) seen.row(d) *= h[d] / reach;
+      const double least = 0.5 * shape.l * h[d];
+      if (reach > 0 && reach < least) seen.row(d) *= least / reach;
     }
     if (seen.determinant() > 1e-9 * h.prod()) return seen;
     return shape.l * Matrix<Dim>(h.asDiagonal());
