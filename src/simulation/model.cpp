@@ -56,6 +56,7 @@ class BodyFiller {
       if (initial_position_ >= 0) motion(initial_position_ + d, p) = place[std::size_t(d)];
     }
     motion(mass_, p) = body_.density * layout_.particle_volume;
+    set_domain_at_rest<Dim>(motion, p, 0.5 * layout_.location_size);
     body_.particles.state()(0, p) = layout_.particle_volume;
     body_.law->initialise(body_.particles.state(), p);
   }

@@ -168,14 +168,13 @@ TEST_P(SavedRun, GoesOnWithTheSameBitsOnAPeriodicAxis)
     expect_the_same_after_loading([&] { return flying(map); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, SavedRun,
-                         ::testing::Values(Method{"gimp", "flip", "musl"},
-                                           Method{"quadratic", "apic", "musl"},
-                                           Method{"gimp", "flip", "usf"},
-                                           Method{"gimp", "flip", "usl"},
-                                           Method{"gimp", "flip", "usavg"},
-                                           Method{"cubic", "fmpm", "musl"}),
-                         [](const auto& info) { return name_of(info.param); });
+INSTANTIATE_TEST_SUITE_P(
+    Methods, SavedRun,
+    ::testing::Values(Method{"gimp", "flip", "musl"}, Method{"quadratic", "apic", "musl"},
+                      Method{"gimp", "flip", "usf"}, Method{"gimp", "flip", "usl"},
+                      Method{"gimp", "flip", "usavg"}, Method{"cubic", "fmpm", "musl"},
+                      Method{"cpdi", "flip", "musl"}),
+    [](const auto& info) { return name_of(info.param); });
 
 TEST(SavedLoadBalance, MovesTheBordersAtTheSameStepsToTheSamePlaces)
 {

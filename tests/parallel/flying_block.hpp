@@ -143,6 +143,7 @@ class BlockRun {
                                            block.velocity[0], block.velocity[1],
                                            density * 0.25 * cell * cell};
         for (int c = 0; c < 5; ++c) motion(c, p) = values[c];
+        set_domain_at_rest<2>(motion, p, Vec<2>::Constant(0.25 * cell));
         body.particles.state()(0, p) = 0.25 * cell * cell;
         body.law->initialise(body.particles.state(), p);
       }

@@ -64,6 +64,7 @@ Body<Dim> filled(const Decomposition<Dim>& decomposition, const Transfer<Dim>& t
       motion(Dim + d, p) = v[d];
     }
     motion(2 * Dim, p) = density * volume;
+    set_domain_at_rest<Dim>(motion, p, Vec<Dim>::Constant(0.25 * h));
     body.particles.state()(0, p) = volume;
     body.law->initialise(body.particles.state(), p);
   });

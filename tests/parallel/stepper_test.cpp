@@ -13,7 +13,8 @@ namespace {
 using namespace testing_blocks;
 using ::testing::HasSubstr;
 
-const OneOf<ShapeRow> linear = "linear", gimp = "gimp", quadratic = "quadratic", cubic = "cubic";
+const OneOf<ShapeRow> linear = "linear", gimp = "gimp", quadratic = "quadratic", cubic = "cubic",
+                      cpdi = "cpdi";
 const OneOf<SchemeRow> flip = "flip", pic = "pic", apic = "apic", tpic = "tpic", fmpm = "fmpm";
 
 /// Three in a row and two rows for six ranks, so that corners are crossed.
@@ -117,7 +118,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, FlyingBlock,
                                            Method{quadratic, apic, "usf"}, Method{gimp, pic, "usf"},
                                            Method{gimp, flip, "usl"}, Method{cubic, fmpm, "musl"},
                                            Method{quadratic, flip, "usavg"},
-                                           Method{linear, fmpm, "usf"}),
+                                           Method{linear, fmpm, "usf"}, Method{cpdi, apic, "musl"},
+                                           Method{cpdi, flip, "usf"}),
                          [](const auto& info) { return name_of(info.param); });
 
 /// A piston from the right, three walls, and a second block that flies into the first.
@@ -195,7 +197,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, PressedBlocks,
                                            Method{gimp, flip, "usf"},
                                            Method{quadratic, flip, "usf"},
                                            Method{gimp, flip, "usl"}, Method{gimp, fmpm, "musl"},
-                                           Method{cubic, flip, "musl"}),
+                                           Method{cubic, flip, "musl"}, Method{cpdi, flip, "musl"},
+                                           Method{cpdi, fmpm, "usf"}, Method{cpdi, flip, "usl"}),
                          [](const auto& info) { return name_of(info.param); });
 
 /// Steps until the run stops; its words. Collective.

@@ -94,6 +94,7 @@ Body<Dim> make_body(const Transfer<Dim>& transfer, bool musl, bool plastic, Loca
       motion(Dim + d, p) = d == 0 ? -rate * motion(d, p) : 0;
     }
     motion(2 * Dim, p) = density * volume;
+    set_domain_at_rest<Dim>(motion, p, Vec<Dim>::Constant(0.25 * spacing));
     body.particles.state()(0, p) = volume;
     body.law->initialise(body.particles.state(), p);
   }

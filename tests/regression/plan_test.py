@@ -101,6 +101,12 @@ class Plan(ProgramTest):
         self.assertEqual(plan["particles"]["cell_wall"]["bytes"]["deformation_gradient"], 4 * 8)
         self.assertNotIn("deformation gradient", plan["left_out"])
 
+    def test_particles_have_domains_where_the_shape_function_deforms_them(self):
+        self.assertNotIn("domain", self.planned("confined_block")["particles"]["cell_wall"]["bytes"])
+        for name, width in (("confined_block", 4), ("confined_block_space", 9)):
+            plan = self.planned(name, "numerics.shape_function=cpdi")
+            self.assertEqual(plan["particles"]["cell_wall"]["bytes"]["domain"], width * 8)
+
     def test_usf_and_usl_hold_no_re_mapped_momentum(self):
         for order, passes in (("usf", ["usf_stress", "usf_velocity"]), ("usl", ["usl"]),
                               ("musl", ["musl_velocity", "musl_stress"]),

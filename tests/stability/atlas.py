@@ -1,6 +1,6 @@
 """Runs stiff and extreme scenes with every shape function and scheme and says which hold.
 
-    atlas.py MPM_PAR [--case NAME ...] [--quick] [--long] [--csv FILE] [--write]
+    atlas.py MPM_PAR [--case NAME ...] [--method NAME ...] [--quick] [--long] [--csv FILE] [--write]
 
 table.json holds the cases: a scene of `scenes` or `inputs`, what `--set` makes of it, the bounds of
 the figures (figures.py) and, for each method that does not hold, its verdict and the cause.
@@ -145,7 +145,8 @@ def chosen(table, given):
         if given.quick:
             methods = [method for method in case.get("quick", []) if method in methods]
         for method in methods:
-            yield case, method
+            if not given.method or method in given.method:
+                yield case, method
 
 
 def main():
@@ -153,6 +154,7 @@ def main():
                                         formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("mpm_par", type=Path)
     arguments.add_argument("--case", nargs="+", help="names; all that are not long unless given")
+    arguments.add_argument("--method", nargs="+", help="such as 'gimp flip'; all unless given")
     arguments.add_argument("--quick", action="store_true",
                            help="the methods that a case has for it")
     arguments.add_argument("--long", action="store_true",

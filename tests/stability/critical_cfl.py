@@ -1,6 +1,6 @@
 """Measures the largest CFL that each shape function, scheme and update order bears.
 
-    critical_cfl.py MPM_PAR [--write] [--method METHOD ...]
+    critical_cfl.py MPM_PAR [--method NAME ...] [--write]
 
 Scenes, each by bisection to 3 %, within what numerics.cfl may be:
 
@@ -11,8 +11,8 @@ Scenes, each by bisection to 3 %, within what numerics.cfl may be:
     drift     a block without an end drifts through 32 cells: the same
     crush     a honeycomb is crushed to 60 % at 50 m/s: the energy gains less than 2 %
 
---write puts them into critical_cfl.json, from which page.py makes its table; with --method (as
-"gimp flip usl") only those are measured, and the others stay. 0 is: no CFL down to 0.05 is borne.
+--write puts them into critical_cfl.json, from which page.py makes its table; those of other methods
+stay. 0 is: no CFL down to 0.05 is borne.
 """
 import argparse
 import json
@@ -83,16 +83,12 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__,
                                         formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("mpm_par", type=Path)
+    arguments.add_argument("--method", nargs="+", help="as in table.json; all unless given")
     arguments.add_argument("--write", action="store_true")
-    arguments.add_argument("--method", action="append", help="one of table.json; again for more")
     given = arguments.parse_args()
-    methods = json.loads(TABLE.read_text())["methods"]
-    methods = methods["all"] + methods["orders"]
-    for method in given.method or []:
-        if method not in methods:
-            arguments.error(f"'{method}' is none of {', '.join(methods)}")
-    before = json.loads(FILE.read_text()) if given.method else {}
-    measured = {}
+    table = json.loads(TABLE.read_text())
+    methods = table["methods"]["all"] + table["methods"]["orders"]
+    measured = json.loads(FILE.read_text())
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for method in given.method or methods:
@@ -106,10 +102,9 @@ def main():
             print(f"{method:<20}", found, flush=True)
             measured[method] = found
     if given.write:
-        measured = {method: found for method in methods
-                    if (found := measured.get(method, before.get(method)))}
         FILE.write_text("{\n" + ",\n".join(f'  "{method}": {json.dumps(found)}'
-                                           for method, found in measured.items()) + "\n}\n")
+                                           for method in methods if (found := measured.get(method)))
+                        + "\n}\n")
 
 
 if __name__ == "__main__":

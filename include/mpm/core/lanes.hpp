@@ -29,18 +29,6 @@ inline void store(const Lanes& values, double* column)
   values.copy_to(column, stdx::vector_aligned);
 }
 
-/// N columns of a block, from `column` on.
-template <int N>
-void load_all(const double* block, int column, Lanes (&values)[N])
-{
-  for (int k = 0; k < N; ++k) values[k] = load(block + (column + k) * lane_count);
-}
-template <int N>
-void store_all(const Lanes (&values)[N], double* block, int column)
-{
-  for (int k = 0; k < N; ++k) store(values[k], block + (column + k) * lane_count);
-}
-
 /// `condition ? a : b`, lane by lane.
 inline Lanes select(const LaneMask& condition, const Lanes& a, const Lanes& b)
 {

@@ -11,7 +11,8 @@ namespace mpm {
 /// `ends_at_walls`: whether it is cut off at walls at rest (transfer/stencil.hpp), beyond which it
 /// would reach.
 /// `base_shift()`: the first node of a particle at x is floor(x/h - base_shift). `weights`: r is
-/// x/h minus that node; fills w and, times 1/h, the gradients g.
+/// x/h minus that node; fills w and, times 1/h, the gradients g. (With `carries_domain`, Cpdi's
+/// members instead.)
 struct Linear {
   /// No step is stable at free edges where the gradient of a velocity is taken that the force has
   /// just changed: where hardly any mass reaches a node, this gradient is as large as ever. Below

@@ -86,15 +86,15 @@ template <int Dim>
   return trace;
 }
 
-/// Gives a velocity gradient the divergence of the nodes (NodeFields::divergence_from_remap).
+/// Sum w div of the divergences around the nodes, 1/s (NodeFields::divergence_from_remap).
 template <int Dim, class Shape>
-[[gnu::always_inline]] inline void take_divergence(const Stencil<Dim, Shape>& stencil,
-                                                   const GridTopology<Dim>& grid,
-                                                   const NodeFields<Dim>& fields, double* gradient)
+[[gnu::always_inline]] inline Lanes gather_divergence(const Stencil<Dim, Shape>& stencil,
+                                                      const GridTopology<Dim>& grid,
+                                                      const NodeFields<Dim>& fields)
 {
   constexpr int n = Shape::support, layers = Dim == 3 ? n : 1;
   const auto& w = stencil.weight;
-  const Lanes averaged([&](int lane) {
+  return Lanes([&](int lane) {
     double sum = 0;
     for (int c = 0; c < layers; ++c)
       for (int b = 0; b < n; ++b)
@@ -109,6 +109,15 @@ template <int Dim, class Shape>
         }
     return sum;
   });
+}
+
+/// Gives a velocity gradient the divergence of the nodes.
+template <int Dim, class Shape>
+[[gnu::always_inline]] inline void take_divergence(const Stencil<Dim, Shape>& stencil,
+                                                   const GridTopology<Dim>& grid,
+                                                   const NodeFields<Dim>& fields, double* gradient)
+{
+  const Lanes averaged = gather_divergence(stencil, grid, fields);
   const Lanes share = (averaged - trace_of<Dim>(gradient)) / double(Dim);
   for (int d = 0; d < Dim; ++d) {
     double* diagonal = gradient + d * (Dim + 1) * lane_count;

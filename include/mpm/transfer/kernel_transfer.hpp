@@ -1,6 +1,8 @@
 #pragma once
 /// The passes, compiled per dimension, shape function and scheme.
 
+#include <mpm/transfer/block_columns.hpp>
+#include <mpm/transfer/domain_gather.hpp>
 #include <mpm/transfer/gather.hpp>
 #include <mpm/transfer/particle_faults.hpp>
 #include <mpm/transfer/scatter.hpp>
@@ -8,23 +10,15 @@
 #include <mpm/transfer/transfer.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 namespace mpm {
 
-/// What a pass does, in this order.
-struct PassContent {
-  bool refine = false;       ///< G2P of the residual velocity, and nothing else
-  bool gradient = false;     ///< velocity gradient at the old place, stress update
-  bool half_stress = false;  ///< by half of the step
-  bool velocity = false;     ///< G2P of the velocity
-  bool move = false;
-  ScatterContent scatter;  ///< P2G at the new place
-};
-
 template <int Dim, class Shape, class Scheme>
 class KernelTransfer final : public Transfer<Dim> {
-  using Columns = MotionColumns<Dim, Scheme>;
+  static constexpr bool has_domain = CarriesDomain<Shape>;
+  using Columns = MotionColumns<Dim, Scheme, has_domain>;
 
  public:
   KernelTransfer(Shape shape, bool f_bar) : shape_(shape), f_bar_(f_bar) {}
@@ -39,9 +33,7 @@ class KernelTransfer final : public Transfer<Dim> {
     const GridFrame<Dim> frame(grid);
     nodes.resize(std::size_t(particles.blocks()) * lane_count);
     for (LocalIndex b = 0; b < particles.blocks(); ++b) {
-      Lanes x[Dim];
-      load_all(particles.motion().block(b), Columns::position, x);
-      const Stencil<Dim, Shape> stencil(x, frame, shape_);
+      const Stencil<Dim, Shape> stencil = stencil_of(particles.motion().block(b), frame);
       for (int lane = 0; lane < lane_count; ++lane)
         nodes[std::size_t(b) * lane_count + lane] = LocalIndex(stencil.base[lane]);
     }
@@ -64,11 +56,11 @@ class KernelTransfer final : public Transfer<Dim> {
   {
     const GridFrame<Dim> frame(grid, !part.interior);
     for (LocalIndex b = part.first; b < part.end; ++b) {
-      Lanes x[Dim], f[Dim];
+      Lanes f[Dim];
       for (Lanes& component : f) component = 0.0;
       force(b, f);
-      load_all(part.body.particles.motion().block(b), Columns::position, x);
-      scatter_force(Stencil<Dim, Shape>(x, frame, shape_), grid, f, fields.load_force.data());
+      scatter_force(stencil_of(part.body.particles.motion().block(b), frame), grid, f,
+                    fields.load_force.data());
     }
   }
 
@@ -90,9 +82,8 @@ class KernelTransfer final : public Transfer<Dim> {
     alignas(lane_alignment) double gradient[Dim * Dim * lane_count];
     for (LocalIndex b = part.first; b < part.end; ++b) {
       const double* motion = part.body.particles.motion().block(b);
-      Lanes x[Dim], weighted[Dim], no_affine[Dim * Dim];
-      load_all(motion, Columns::position, x);
-      const Stencil<Dim, Shape> stencil(x, frame, shape_);
+      Lanes weighted[Dim], no_affine[Dim * Dim];
+      const Stencil<Dim, Shape> stencil = stencil_of(motion, frame);
       gather_gradient(stencil, grid, fields, gradient);
       const Lanes mass = load(motion + Columns::mass * lane_count);
       for (Lanes& component : weighted) component = 0.0;
@@ -164,20 +155,32 @@ class KernelTransfer final : public Transfer<Dim> {
   /// From asking for a block to working on it.
   static constexpr int blocks_ahead = 4 * chunk;
 
-  /// Asks for the columns of a block that is worked on soon: the processor sees by itself that they
-  /// lie in order, but not early enough. (Inlined, because GCC drops calls that only ask.)
+  /// At the particles' place.
+  [[gnu::always_inline]] Stencil<Dim, Shape> stencil_of(const double* motion,
+                                                        const GridFrame<Dim>& frame) const
+  {
+    Lanes x[Dim];
+    load_all(motion, Columns::position, x);
+    return stencil_at(x, motion, frame);
+  }
+  /// At a place that may not be in the columns yet.
+  [[gnu::always_inline]] Stencil<Dim, Shape> stencil_at(const Lanes (&x)[Dim], const double* motion,
+                                                        const GridFrame<Dim>& frame) const
+  {
+    if constexpr (has_domain) {
+      Lanes domain[Dim * Dim];
+      load_all(motion, Columns::domain, domain);
+      return Stencil<Dim, Shape>(x, domain, frame, shape_);
+    } else {
+      return Stencil<Dim, Shape>(x, frame, shape_);
+    }
+  }
+
   template <PassContent Content>
   [[gnu::always_inline]] static void fetch_ahead(ParticleStore& particles, LocalIndex block)
   {
     fetch(particles.motion(), block);
     if constexpr (Content.gradient || Content.scatter.force) fetch(particles.state(), block);
-  }
-  [[gnu::always_inline]] static void fetch(ColumnGroup& group, LocalIndex block)
-  {
-    constexpr int for_writing = 1;
-    const double* columns = group.block(block);
-    for (int c = 0; c < group.width(); ++c)
-      __builtin_prefetch(columns + c * lane_count, for_writing);
   }
 
   /// Of the chunk from `first` on, as far as there are blocks before `end`.
@@ -188,9 +191,7 @@ class KernelTransfer final : public Transfer<Dim> {
                                                double* gradient) const
   {
     for (LocalIndex b = first; b < std::min(first + chunk, end); ++b) {
-      Lanes x[Dim];
-      load_all(particles.motion().block(b), Columns::position, x);
-      gather_gradient(Stencil<Dim, Shape>(x, frame, shape_), grid, fields, gradient);
+      gather_gradient(stencil_of(particles.motion().block(b), frame), grid, fields, gradient);
       gradient += Dim * Dim * lane_count;
     }
   }
@@ -202,9 +203,7 @@ class KernelTransfer final : public Transfer<Dim> {
                                           const NodeFields<Dim>& fields, double* gradient) const
   {
     for (LocalIndex b = first; b < first + blocks; ++b) {
-      Lanes x[Dim];
-      load_all(particles.motion().block(b), Columns::position, x);
-      take_divergence(Stencil<Dim, Shape>(x, frame, shape_), grid, fields, gradient);
+      take_divergence(stencil_of(particles.motion().block(b), frame), grid, fields, gradient);
       gradient += Dim * Dim * lane_count;
     }
   }
@@ -214,8 +213,12 @@ class KernelTransfer final : public Transfer<Dim> {
                         NodeFields<Dim>& fields, double dt, const MoveBounds<Dim>* bounds) const
   {
     constexpr int stress_width = symmetric_components<Dim> * lane_count;
-    alignas(lane_alignment) double gradient[chunk * Dim * Dim * lane_count];
+    constexpr int gradient_width = Dim * Dim * lane_count;
+    alignas(lane_alignment) double gradient[chunk * gradient_width];
     alignas(lane_alignment) double force_stress[chunk * stress_width];
+    // As gathered, without means over nodes: what the chunk's domains move with.
+    constexpr int kept = !has_domain || !Content.move ? 0 : Content.gradient ? chunk : 1;
+    [[maybe_unused]] alignas(lane_alignment) double carrier[std::max(1, kept * gradient_width)];
 
     const GridFrame<Dim> frame(grid, !part.interior), force_frame = frame.with_negative_gradients();
     [[maybe_unused]] const double stress_dt = Content.half_stress ? 0.5 * dt : dt;
@@ -231,10 +234,12 @@ class KernelTransfer final : public Transfer<Dim> {
       double* state = particles.state().block(first);
       fetch_ahead<Content>(particles, std::min(first + blocks_ahead, part.end - 1));
       if constexpr (Content.gradient) {
+        if constexpr (has_domain && Content.move)
+          std::copy_n(gradient, blocks * gradient_width, carrier);
         if (f_bar_) [[unlikely]]
           take_divergences(particles, first, blocks, frame, grid, fields, gradient);
         for (int k = 0; k < blocks; ++k) {
-          const Lanes f = step_determinant<Dim>(gradient + k * Dim * Dim * lane_count, rate);
+          const Lanes f = step_determinant<Dim>(gradient + k * gradient_width, rate);
           if (!stdx::all_of(f > 0.0)) [[unlikely]]
             report_inverted(particles, first + k, f, stress_dt, outcome);
         }
@@ -246,8 +251,9 @@ class KernelTransfer final : public Transfer<Dim> {
       }
       for (int k = 0; k < blocks; ++k)
         move_and_scatter<Content>(particles, first + k, frame, force_frame, grid, fields, dt,
-                                  bounds, force_stress + k * stress_width, scatter, largest_speed,
-                                  outcome);
+                                  bounds, force_stress + k * stress_width,
+                                  carrier + (kept > 1 ? k * gradient_width : 0), scatter,
+                                  largest_speed, outcome);
     }
     outcome.largest_speed = stdx::hmax(largest_speed);
     return outcome;
@@ -258,8 +264,9 @@ class KernelTransfer final : public Transfer<Dim> {
       ParticleStore& particles, LocalIndex block, const GridFrame<Dim>& frame,
       const GridFrame<Dim>& force_frame, const GridTopology<Dim>& grid,
       const NodeFields<Dim>& fields, double dt, const MoveBounds<Dim>* bounds,
-      const double* force_stress, Scatter<Dim, Shape, Content.scatter>& scatter,
-      Lanes& largest_speed, PassOutcome<Dim>& outcome) const
+      const double* force_stress, [[maybe_unused]] double* carrier,
+      Scatter<Dim, Shape, Content.scatter>& scatter, Lanes& largest_speed,
+      PassOutcome<Dim>& outcome) const
   {
     constexpr bool needs_affine =
         Scheme::affine && (Content.scatter.momentum || Content.scatter.remap);
@@ -269,21 +276,20 @@ class KernelTransfer final : public Transfer<Dim> {
     const Lanes mass = load(motion + Columns::mass * lane_count);
 
     if constexpr (Content.refine) {
-      const Stencil<Dim, Shape> stencil(x, frame, shape_);
+      const Stencil<Dim, Shape> stencil = stencil_at(x, motion, frame);
       Lanes gathered[2 * Dim], momentum[Dim];
-      gather_velocity<false>(stencil, grid, fields, stencil.weight, gathered, affine);
+      gather_velocity<false>(stencil, grid, fields, stencil.gradient, gathered, affine);
       for (int d = 0; d < Dim; ++d) momentum[d] = mass * gathered[Dim + d];
       scatter.template add<false>(stencil, mass, momentum, force_stress, affine);
       return;
     }
     if constexpr (Content.velocity) {
-      Stencil<Dim, Shape> stencil(x, frame, shape_);
+      Stencil<Dim, Shape> stencil = stencil_at(x, motion, frame);
       alignas(lane_alignment) typename Stencil<Dim, Shape>::Columns affine_weight;
       if constexpr (Scheme::affine) {
         stencil.measure_offsets(frame);
         if constexpr (Scheme::shape_gradient)
-          std::copy_n(&stencil.gradient[0][0][0], Dim * Shape::support * lane_count,
-                      &affine_weight[0][0][0]);
+          std::memcpy(affine_weight, stencil.gradient, sizeof affine_weight);
         else
           stencil.affine_weights(affine_weight);
       }
@@ -312,6 +318,12 @@ class KernelTransfer final : public Transfer<Dim> {
     }
 
     if constexpr (Content.move) {
+      if constexpr (has_domain) {
+        if constexpr (!Content.gradient)
+          gather_gradient_of(fields.updated, NodeFields<Dim>::record_width,
+                             stencil_at(x, motion, frame), grid, carrier);
+        carry_domain<Dim>(carrier, dt, motion + Columns::domain * lane_count);
+      }
       if constexpr (!Content.velocity) load_all(motion, Columns::grid_velocity, u);
       LaneMask reach(true);
       for (int d = 0; d < Dim; ++d) {
@@ -324,7 +336,7 @@ class KernelTransfer final : public Transfer<Dim> {
       store_all(x, motion, Columns::position);
     }
 
-    Stencil<Dim, Shape> stencil(x, force_frame, shape_);
+    Stencil<Dim, Shape> stencil = stencil_at(x, motion, force_frame);
     Lanes momentum[Dim];
     for (int d = 0; d < Dim; ++d) momentum[d] = mass * v[d];
     if constexpr (needs_affine) {

@@ -3,16 +3,12 @@
 
 #include <mpm/grid/node_fields.hpp>
 #include <mpm/materials/law.hpp>
-#include <mpm/transfer/stencil.hpp>
+#include <mpm/transfer/domain_stencil.hpp>
+#include <mpm/transfer/pass_content.hpp>
 
 #include <algorithm>
 
 namespace mpm {
-
-/// What a pass adds to the nodes.
-struct ScatterContent {
-  bool mass = false, momentum = false, force = false, remap = false;
-};
 
 /// Sums contributions in registers while particles share their first node (they are sorted by it),
 /// and adds them to the nodes when the first node changes. Blocks in which it changes often, as in
@@ -80,7 +76,6 @@ class Scatter {
   [[gnu::always_inline]] void add_lanes(const Stencil<Dim, Shape>& stencil, const Columns& columns,
                                         const double* force_stress)
   {
-    const auto &w = stencil.weight, &g = stencil.gradient, &offset = stencil.offset;
     const auto& mc = columns.affine;
     for (int lane = 0; lane < lane_count; ++lane) {
       const LocalIndex base = LocalIndex(stencil.base[lane]);
@@ -100,44 +95,93 @@ class Scatter {
         if constexpr (Affine)
           along[j] = R([&](auto k) { return k < Dim ? mc[k + Dim * j][lane] : 0.0; });
       }
-      const MassRow mass_row =
-          MassRow([&](auto k) { return k < n ? w[0][k][lane] : 0.0; }) * columns.mass[lane];
-      for (int row = 0; row < rows; ++row) {
-        const int b = row % n, c = row / n;
-        double w_row = w[1][b][lane];
-        if constexpr (Dim == 3) w_row *= w[2][c][lane];
-        const std::size_t node = first_of_row(base, row);
-        if constexpr (mass_apart) {
-          if constexpr (InRegisters)
-            mass_[row] += mass_row * w_row;
-          else
-            add_to(mass_of_nodes_ + node, mass_row * w_row);
-        }
-        R at_row = plain;  // without the force: times w along x
-        if constexpr (Affine) {
-          at_row += along[1] * offset[1][b][lane];
-          if constexpr (Dim == 3) at_row += along[2] * offset[2][c][lane];
-        }
-        at_row = at_row * w_row;
-        if constexpr (Content.force) {
-          if constexpr (Dim == 3)
-            at_row +=
-                tau[1] * (g[1][b][lane] * w[2][c][lane]) + tau[2] * (w[1][b][lane] * g[2][c][lane]);
-          else
-            at_row += tau[1] * g[1][b][lane];
-        }
-        for (int a = 0; a < n; ++a) {
-          // Term by term, so that each is one multiply-add.
-          double* record = target_ + (node + a) * width;
-          R sum = InRegisters ? sum_[row * n + a] : R(record, stdx::element_aligned);
-          sum += at_row * w[0][a][lane];
-          if constexpr (Content.force) sum += (tau[0] * w_row) * g[0][a][lane];
-          if constexpr (Affine) sum += (along[0] * w_row) * (w[0][a][lane] * offset[0][a][lane]);
-          if constexpr (InRegisters)
-            sum_[row * n + a] = sum;
-          else
-            sum.copy_to(record, stdx::element_aligned);
-        }
+      add_nodes<Affine, InRegisters>(stencil, base, columns.mass[lane], plain, tau, along, lane);
+    }
+  }
+
+  /// One particle, whose weights are a tensor product.
+  template <bool Affine, bool InRegisters>
+  [[gnu::always_inline]] void add_nodes(const Stencil<Dim, Shape>& stencil, LocalIndex base,
+                                        double mass, const R& plain, const R (&tau)[Dim],
+                                        const R (&along)[Dim], int lane)
+  {
+    const auto &w = stencil.weight, &g = stencil.gradient, &offset = stencil.offset;
+    const MassRow mass_row = MassRow([&](auto k) { return k < n ? w[0][k][lane] : 0.0; }) * mass;
+    for (int row = 0; row < rows; ++row) {
+      const int b = row % n, c = row / n;
+      double w_row = w[1][b][lane];
+      if constexpr (Dim == 3) w_row *= w[2][c][lane];
+      const std::size_t node = first_of_row(base, row);
+      if constexpr (mass_apart) {
+        if constexpr (InRegisters)
+          mass_[row] += mass_row * w_row;
+        else
+          add_to(mass_of_nodes_ + node, mass_row * w_row);
+      }
+      R at_row = plain;  // without the force: times w along x
+      if constexpr (Affine) {
+        at_row += along[1] * offset[1][b][lane];
+        if constexpr (Dim == 3) at_row += along[2] * offset[2][c][lane];
+      }
+      at_row = at_row * w_row;
+      if constexpr (Content.force) {
+        if constexpr (Dim == 3)
+          at_row +=
+              tau[1] * (g[1][b][lane] * w[2][c][lane]) + tau[2] * (w[1][b][lane] * g[2][c][lane]);
+        else
+          at_row += tau[1] * g[1][b][lane];
+      }
+      for (int a = 0; a < n; ++a) {
+        // Term by term, so that each is one multiply-add.
+        double* record = target_ + (node + a) * width;
+        R sum = InRegisters ? sum_[row * n + a] : R(record, stdx::element_aligned);
+        sum += at_row * w[0][a][lane];
+        if constexpr (Content.force) sum += (tau[0] * w_row) * g[0][a][lane];
+        if constexpr (Affine) sum += (along[0] * w_row) * (w[0][a][lane] * offset[0][a][lane]);
+        if constexpr (InRegisters)
+          sum_[row * n + a] = sum;
+        else
+          sum.copy_to(record, stdx::element_aligned);
+      }
+    }
+  }
+
+  /// One particle, whose weights are given node by node.
+  template <bool Affine, bool InRegisters>
+  requires CarriesDomain<Shape>
+  [[gnu::always_inline]] void add_nodes(const Stencil<Dim, Shape>& stencil, LocalIndex base,
+                                        double mass, const R& plain, const R (&tau)[Dim],
+                                        const R (&along)[Dim], int lane)
+  {
+    const auto &w = stencil.weight, &g = stencil.gradient, &offset = stencil.offset;
+    for (int row = 0; row < rows; ++row) {
+      const std::size_t node = first_of_row(base, row);
+      if constexpr (mass_apart) {
+        const MassRow mass_row =
+            MassRow([&](auto k) { return k < n ? w[row * n + k][lane] : 0.0; }) * mass;
+        if constexpr (InRegisters)
+          mass_[row] += mass_row;
+        else
+          add_to(mass_of_nodes_ + node, mass_row);
+      }
+      R at_row = plain;
+      if constexpr (Affine) {
+        at_row += along[1] * offset[1][row % n][lane];
+        if constexpr (Dim == 3) at_row += along[2] * offset[2][row / n][lane];
+      }
+      for (int a = 0; a < n; ++a) {
+        const int k = row * n + a;
+        double* record = target_ + (node + a) * width;
+        R sum = InRegisters ? sum_[k] : R(record, stdx::element_aligned);
+        R value = at_row;
+        if constexpr (Affine) value += along[0] * offset[0][a][lane];
+        sum += value * w[k][lane];
+        if constexpr (Content.force)
+          for (int j = 0; j < Dim; ++j) sum += tau[j] * g[j][k][lane];
+        if constexpr (InRegisters)
+          sum_[k] = sum;
+        else
+          sum.copy_to(record, stdx::element_aligned);
       }
     }
   }
@@ -215,6 +259,17 @@ void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& 
           }
           for (int d = 0; d < Dim; ++d) nodes[node * Dim + d] += w * force[d][lane];
         }
+}
+template <int Dim, CarriesDomain Shape>
+void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& grid,
+                   const Lanes (&force)[Dim], double* nodes)
+{
+  for (int lane = 0; lane < lane_count; ++lane)
+    for_each_node<Dim, Shape>(grid, [&](int k, std::size_t from_first) {
+      const std::size_t node = std::size_t(stencil.base[lane]) + from_first;
+      for (int d = 0; d < Dim; ++d)
+        nodes[node * Dim + d] += stencil.weight[k][lane] * force[d][lane];
+    });
 }
 
 }  // namespace mpm

@@ -6,7 +6,7 @@
 ///   row             what else the program knows of it.
 
 #include <mpm/core/types.hpp>
-#include <mpm/particles/particle_store.hpp>
+#include <mpm/particles/particle_domain.hpp>
 #include <mpm/shape/shape_row.hpp>
 
 #include <string_view>
@@ -46,16 +46,19 @@ struct LeadingColumns {
 
 /// Where the motion columns of a particle lie. `grid_velocity` is there only for MUSL, whose
 /// particles move in another pass than the one that reads the grid; the affine field only for
-/// the schemes that have one.
-template <int Dim, class Scheme>
+/// the schemes that have one; the domain (component d of half axis k at d + Dim * k) only with a
+/// shape function that has one.
+template <int Dim, class Scheme, bool HasDomain = false>
 struct MotionColumns : LeadingColumns<Dim> {
   static constexpr int affine = 2 * Dim + 1;
-  static constexpr int grid_velocity = affine + (Scheme::affine ? Dim * Dim : 0);
+  static constexpr int domain = affine + (Scheme::affine ? Dim * Dim : 0);
+  static constexpr int grid_velocity = domain + (HasDomain ? Dim * Dim : 0);
 
   static std::vector<Column> columns(bool musl)
   {
     std::vector<Column> list{{"position", Dim, "m"}, {"velocity", Dim, "m/s"}, {"mass", 1, "kg"}};
     if (Scheme::affine) list.push_back({"affine_velocity", Dim * Dim, "1/s"});
+    if (HasDomain) list.push_back({std::string(domain_column), Dim * Dim, "m"});
     if (musl) list.push_back({"grid_velocity", Dim, "m/s"});
     return list;
   }

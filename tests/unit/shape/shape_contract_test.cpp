@@ -74,6 +74,8 @@ TYPED_TEST(ShapeContract, LinearFieldsAreReproducedWithTheirSlope)
 
 TYPED_TEST(ShapeContract, GradientsAreDifferenceQuotientsOfTheWeights)
 {
+  if (CarriesDomain<decltype(TypeParam::shape())>)
+    GTEST_SKIP() << "it takes the mean gradient over the domain, and the weights at its corners";
   // The central difference is off by the rounding of the weights, 4e-15, over the step, and by
   // step^2 / 6 of a third derivative of a few 1/h^3. Where the gradient has a kink within the step
   // it is off by the second difference of the gradient there: these places are left out.

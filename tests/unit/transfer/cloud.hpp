@@ -94,6 +94,9 @@ struct Cloud {
       motion(2 * Dim, at) = p.mass;
       for (int k = 0; naive.affine() && k < Dim * Dim; ++k)
         motion(2 * Dim + 1 + k, at) = p.affine(k % Dim, k / Dim);
+      const int domain = motion.find("domain");
+      for (int k = 0; domain >= 0 && k < Dim * Dim; ++k)
+        motion(domain + k, at) = p.domain(k % Dim, k / Dim);
       state(0, at) = p.volume;
       for (int c = 0; c < RecordingLaw<Dim>::components; ++c) {
         const auto [i, j] = RecordingLaw<Dim>::place(c);
@@ -144,6 +147,16 @@ struct Cloud {
   }
 
  private:
+  /// Sheared and stretched, some beyond what weights see of them, some without volume.
+  Matrix<Dim> random_domain()
+  {
+    const Matrix<Dim> rest = naive.shape.l * Matrix<Dim>(geometry().spacing.asDiagonal());
+    const Matrix<Dim> stretch = Matrix<Dim>::Identity() + 0.4 * numbers<Dim, Dim>();
+    const std::size_t k = particles.size();
+    if (k == 7) return Matrix<Dim>::Zero();
+    if (k == 8) return rest.colwise().reverse();  // inside out
+    return (k % 4 == 0 ? 6 : k % 4 == 1 ? 0.2 : 1) * stretch * rest;
+  }
   ParticleStore store(bool musl) const
   {
     return {transfer->motion_columns(musl),
@@ -159,6 +172,7 @@ struct Cloud {
     p.mass = 1.5 + number();
     p.volume = 1.5 + number();
     if (naive.affine()) p.affine = numbers<Dim, Dim>();
+    if (naive.has_domain()) p.domain = random_domain();
     const Matrix<Dim> a = numbers<Dim, Dim>();
     p.stress = a + a.transpose();
     return p;

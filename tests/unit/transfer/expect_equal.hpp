@@ -59,6 +59,11 @@ void expect_particles_equal(const Cloud<Dim>& cloud)
       EXPECT_NEAR(state(RecordingLaw<Dim>::gradient + k, p), expected.gradient(k % Dim, k / Dim),
                   100 * rounding)
           << "particle " << p << ", column " << k;
+    const int domain = cloud.body.particles.motion().find("domain");
+    for (int k = 0; domain >= 0 && k < Dim * Dim; ++k)
+      EXPECT_NEAR(cloud.body.particles.motion()(domain + k, p), expected.domain(k % Dim, k / Dim),
+                  10 * rounding)
+          << "particle " << p << ", column " << k;
     if (!cloud.naive.affine()) continue;
     const auto affine = motion_of(cloud, 2 * Dim + 1, Dim * Dim);
     for (int k = 0; k < Dim * Dim; ++k)

@@ -34,7 +34,7 @@ void expect_averages(TransferCase c)
 
   std::vector<double> mass(cloud.nodes.size()), sum(cloud.nodes.size());
   const auto weight = [&](std::size_t p, std::size_t i) {
-    return cloud.naive.weight(cloud.particles[p].x, cloud.nodes[i]);
+    return cloud.naive.weight(cloud.particles[p], cloud.nodes[i]);
   };
   for (std::size_t p = 0; p < own.size(); ++p)
     for (std::size_t i = 0; i < mass.size(); ++i) {

@@ -30,6 +30,7 @@ void expect_linear_fields_exactly(TransferCase c)
     p.gradient = slope;
     if (cloud.naive.affine()) p.affine = slope;
     p.x += dt * velocity;
+    p.domain += dt * slope * p.domain;
   }
   cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, dt, cloud.wide_bounds());
   expect_particles_equal(cloud);

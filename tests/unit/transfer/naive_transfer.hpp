@@ -2,6 +2,7 @@
 /// The transfer formulae written out plainly: one particle, one node, one axis at a time, every
 /// particle with every node. Weights from their published piecewise definitions.
 
+#include <mpm/shape/carries_domain.hpp>
 #include <mpm/shape/shape_types.hpp>
 #include <mpm/transfer/scheme_types.hpp>
 #include <mpm/transfer/transfer.hpp>
@@ -47,12 +48,14 @@ struct NaiveShape {
   {
     std::pair<double, double> result{0, 0};
     for_each_type(ShapeTypes{}, [&]<class Shape>() {
-      if (kind != Shape::row.keyword) return;
-      const Shape shape = Shape::make(int(std::lround(0.5 / l)));
-      const double base = std::floor(r - shape.base_shift());
-      Lanes w[Shape::support], g[Shape::support];
-      shape.weights(Lanes(r - base), 1, w, g);
-      if (base <= 0 && -base < Shape::support) result = {w[int(-base)][0], g[int(-base)][0]};
+      if constexpr (!CarriesDomain<Shape>) {
+        if (kind != Shape::row.keyword) return;
+        const Shape shape = Shape::make(int(std::lround(0.5 / l)));
+        const double base = std::floor(r - shape.base_shift());
+        Lanes w[Shape::support], g[Shape::support];
+        shape.weights(Lanes(r - base), 1, w, g);
+        if (base <= 0 && -base < Shape::support) result = {w[int(-base)][0], g[int(-base)][0]};
+      }
     });
     return result;
   }
@@ -66,6 +69,7 @@ struct NaiveParticle {
   Vec<Dim> x, v, u = Vec<Dim>::Zero();
   double mass, volume;
   Matrix<Dim> affine = Matrix<Dim>::Zero(), stress, gradient = Matrix<Dim>::Zero();
+  Matrix<Dim> domain = Matrix<Dim>::Zero();  ///< half axes as columns, m
 };
 
 template <int Dim>
@@ -88,21 +92,60 @@ struct NaiveTransfer {
 
   bool affine() const { return scheme->affine; }
 
-  double weight(const Vec<Dim>& x, const NaiveNode<Dim>& node) const
+  bool has_domain() const { return shape.kind == "cpdi"; }
+
+  double weight(const NaiveParticle<Dim>& p, const NaiveNode<Dim>& node) const
   {
+    if (has_domain()) return of_corners(p, node).first;
     double w = 1;
-    for (int d = 0; d < Dim; ++d) w *= shape.weight((x[d] - node.x[d]) / h[d]);
+    for (int d = 0; d < Dim; ++d) w *= shape.weight((p.x[d] - node.x[d]) / h[d]);
     return w;
   }
-  Vec<Dim> gradient(const Vec<Dim>& x, const NaiveNode<Dim>& node) const
+  Vec<Dim> gradient(const NaiveParticle<Dim>& p, const NaiveNode<Dim>& node) const
   {
+    if (has_domain()) return of_corners(p, node).second;
     Vec<Dim> g = Vec<Dim>::Ones();
     for (int d = 0; d < Dim; ++d)
       for (int k = 0; k < Dim; ++k) {
-        const double r = (x[k] - node.x[k]) / h[k];
+        const double r = (p.x[k] - node.x[k]) / h[k];
         g[d] *= k == d ? shape.slope(r) / h[k] : shape.weight(r);
       }
     return g;
+  }
+
+  /// CPDI: what the weights see of a domain. Along no axis it reaches farther than a cell, or less
+  /// than half of what it does at rest; a domain without volume is that of a particle at rest.
+  Matrix<Dim> seen_domain(const NaiveParticle<Dim>& p) const
+  {
+    Matrix<Dim> seen = p.domain;
+    for (int d = 0; d < Dim; ++d) {
+      const double reach = p.domain.row(d).cwiseAbs().sum();
+      if (reach > h[d]) seen.row(d) *= h[d] / reach;
+      const double least = 0.5 * shape.l * h[d];
+      if (reach > 0 && reach < least) seen.row(d) *= least / reach;
+    }
+    if (seen.determinant() > 1e-9 * h.prod()) return seen;
+    return shape.l * Matrix<Dim>(h.asDiagonal());
+  }
+  /// CPDI: weight and gradient from the hats at the corners.
+  std::pair<double, Vec<Dim>> of_corners(const NaiveParticle<Dim>& p,
+                                         const NaiveNode<Dim>& node) const
+  {
+    const Matrix<Dim> domain = seen_domain(p), to_gradient = domain.inverse().transpose();
+    double w = 0;
+    Vec<Dim> g = Vec<Dim>::Zero();
+    constexpr int corners = 1 << Dim;
+    for (int c = 0; c < corners; ++c) {
+      Vec<Dim> sign;
+      for (int d = 0; d < Dim; ++d) sign[d] = (c >> d) % 2 == 1 ? 1 : -1;
+      const Vec<Dim> corner = p.x + domain * sign;
+      double hat = 1.0 / corners;
+      for (int d = 0; d < Dim; ++d)
+        hat *= std::max(0.0, 1 - std::abs(corner[d] - node.x[d]) / h[d]);
+      w += hat;
+      g += hat * to_gradient * sign;
+    }
+    return {w, g};
   }
 
   /// Adds mass, momentum (with the affine part) and internal force.
@@ -110,10 +153,10 @@ struct NaiveTransfer {
   {
     for (const auto& p : particles)
       for (auto& node : nodes) {
-        const double w = weight(p.x, node);
+        const double w = weight(p, node);
         node.mass += w * p.mass;
         node.momentum += w * p.mass * (p.v + p.affine * (node.x - p.x));
-        node.force -= p.volume * p.stress * gradient(p.x, node);
+        node.force -= p.volume * p.stress * gradient(p, node);
       }
   }
 
@@ -129,12 +172,12 @@ struct NaiveTransfer {
       Matrix<Dim> moment = Matrix<Dim>::Zero(), b = Matrix<Dim>::Zero();
       p.u.setZero();
       for (const auto& node : nodes) {
-        const double w = weight(p.x, node);
+        const double w = weight(p, node);
         const Vec<Dim> offset = node.x - p.x;
         p.u += w * node.velocity;
         increment += w * node.increment;
         moment += w * offset * offset.transpose();
-        b += gradients ? Matrix<Dim>(node.velocity * gradient(p.x, node).transpose())
+        b += gradients ? Matrix<Dim>(node.velocity * gradient(p, node).transpose())
                        : Matrix<Dim>(w * node.velocity * offset.transpose());
       }
       p.v = scheme->book == ReactionBook::increments ? Vec<Dim>(p.v + increment) : p.u;
@@ -148,15 +191,29 @@ struct NaiveTransfer {
     for (auto& p : particles) {
       p.gradient.setZero();
       for (const auto& node : nodes)
-        p.gradient += node.gradient_velocity * gradient(p.x, node).transpose();
+        p.gradient += node.gradient_velocity * gradient(p, node).transpose();
       p.stress += dt * (Constants::mu * (p.gradient + p.gradient.transpose()) +
                         Constants::lambda * p.gradient.trace() * Matrix<Dim>::Identity());
     }
   }
 
+  /// With the gradient that the stress has seen.
   static void move(Particles& particles, double dt)
   {
-    for (auto& p : particles) p.x += dt * p.u;
+    for (auto& p : particles) {
+      p.x += dt * p.u;
+      p.domain += dt * p.gradient * p.domain;
+    }
+  }
+  /// With that of the velocity that moves the particle.
+  void move_with_updated_velocity(const Nodes& nodes, Particles& particles, double dt) const
+  {
+    for (auto& p : particles) {
+      Matrix<Dim> carrier = Matrix<Dim>::Zero();
+      for (const auto& node : nodes) carrier += node.velocity * gradient(p, node).transpose();
+      p.x += dt * p.u;
+      p.domain += dt * carrier * p.domain;
+    }
   }
 };
 

@@ -95,7 +95,7 @@ void expect_stencils_to_cover_all_weights(TransferCase c)
                              first[p] / cloud.grid.topology.stride(d) % count;
         inside = inside && k >= 0 && k < cloud.transfer->support();
       }
-      if (inside) covered += cloud.naive.weight(cloud.particles[p].x, cloud.nodes[node]);
+      if (inside) covered += cloud.naive.weight(cloud.particles[p], cloud.nodes[node]);
     }
     EXPECT_NEAR(covered, 1, rounding) << "particle " << p;
   }

@@ -32,7 +32,7 @@ struct Mapping {
     Eigen::VectorXd mass = Eigen::VectorXd::Zero(Eigen::Index(cloud.nodes.size()));
     for (std::size_t p = 0; p < cloud.particles.size(); ++p)
       for (std::size_t i = 0; i < cloud.nodes.size(); ++i) {
-        const double w = cloud.naive.weight(cloud.particles[p].x, cloud.nodes[i]);
+        const double w = cloud.naive.weight(cloud.particles[p], cloud.nodes[i]);
         to_particles(p, i) = w;
         to_nodes(i, p) = w * cloud.particles[p].mass;
         mass[i] += to_nodes(i, p);

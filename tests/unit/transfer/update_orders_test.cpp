@@ -73,7 +73,7 @@ void expect_usf(TransferCase c)
   cloud.transfer->usf_velocity(cloud.body, cloud.grid.topology, cloud.grid.fields, dt,
                                cloud.wide_bounds());
   cloud.naive.velocity_to_particles(cloud.nodes, cloud.particles);
-  cloud.naive.move(cloud.particles, dt);
+  cloud.naive.move_with_updated_velocity(cloud.nodes, cloud.particles, dt);
   forget_sums<Dim>(cloud.nodes);
   cloud.naive.to_grid(cloud.particles, cloud.nodes);
   for (NaiveNode<Dim>& node : cloud.nodes) node.force.setZero();

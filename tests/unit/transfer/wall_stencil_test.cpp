@@ -1,6 +1,6 @@
 // Stencils of particles beside walls at rest.
 #include <mpm/shape/shape_types.hpp>
-#include <mpm/transfer/stencil.hpp>
+#include <mpm/transfer/domain_stencil.hpp>
 
 #include <cmath>
 
@@ -25,17 +25,36 @@ struct Weights {
   double weight[cells + 1] = {}, gradient[cells + 1] = {};  ///< 1, 1/m
 };
 
+/// Of a particle as it was made, two of them per cell and direction.
+template <class Shape>
+Stencil<2, Shape> stencil_at(const Lanes (&position)[2], const GridFrame<2>& frame)
+{
+  if constexpr (CarriesDomain<Shape>) {
+    const Lanes domain[4] = {0.25 * h, 0.0, 0.0, 0.25 * h};
+    return {position, domain, frame, Shape::make(2)};
+  } else {
+    return {position, frame, Shape::make(2)};
+  }
+}
+
 template <class Shape>
 Weights weights_at(double x, const GridTopology<2>& grid)
 {
   const Lanes position[2] = {Lanes(-0.2 + x * h), Lanes(0.5 + 6.3 * h)};
   const GridFrame<2> frame(grid);
-  const Stencil<2, Shape> stencil(position, frame, Shape::make(2));
+  const Stencil<2, Shape> stencil = stencil_at<Shape>(position, frame);
   Weights result;
   const int first = int(stencil.base[0]) % (cells + 1);
   for (int a = 0; a < Shape::support; ++a) {
-    result.weight[first + a] = stencil.weight[0][a][0];
-    result.gradient[first + a] = stencil.gradient[0][a][0];
+    if constexpr (CarriesDomain<Shape>) {
+      for (int k = a; k < stencil.nodes; k += Shape::support) {
+        result.weight[first + a] += stencil.weight[k][0];
+        result.gradient[first + a] += stencil.gradient[0][k][0];
+      }
+    } else {
+      result.weight[first + a] = stencil.weight[0][a][0];
+      result.gradient[first + a] = stencil.gradient[0][a][0];
+    }
   }
   return result;
 }
@@ -117,7 +136,7 @@ TYPED_TEST(WallStencil, AffineWeightsAreNumbersOnTheWallItself)
 {
   const Lanes position[2] = {Lanes(-0.2 + lower_wall * h), Lanes(0.5 + 6.3 * h)};
   const GridFrame<2> frame(this->walled);
-  Stencil<2, TypeParam> stencil(position, frame, TypeParam::make(2));
+  Stencil<2, TypeParam> stencil = stencil_at<TypeParam>(position, frame);
   stencil.measure_offsets(frame);
   alignas(lane_alignment) typename Stencil<2, TypeParam>::Columns affine;
   stencil.affine_weights(affine);

@@ -4,6 +4,7 @@
 #include <mpm/conditions/rigid_wall.hpp>
 #include <mpm/materials/hencky.hpp>
 #include <mpm/materials/hypoelastic.hpp>
+#include <mpm/shape/cpdi.hpp>
 #include <mpm/shape/gimp.hpp>
 #include <mpm/shape/linear.hpp>
 #include <mpm/shape/quadratic.hpp>
@@ -38,6 +39,7 @@ Body<2> block(std::unique_ptr<Law<2>> law, const Transfer<2>& transfer)
     ColumnGroup &motion = body.particles.motion(), &start = body.particles.state();
     motion(0, p) = (0.25 + 0.5 * (k % (2 * cells[0]))) * h;
     motion(1, p) = (0.25 + 0.5 * (k / (2 * cells[0]))) * h;
+    set_domain_at_rest<2>(motion, p, Vec<2>::Constant(0.25 * h));
     motion(motion.find("mass"), p) = density * 0.25 * h * h;
     start(0, p) = 0.25 * h * h;
     body.law->initialise(start, p);
@@ -130,4 +132,5 @@ int main()
   mpm::press_with("linear", mpm::Linear{});
   mpm::press_with("gimp", mpm::Gimp{0.25});
   mpm::press_with("quadratic", mpm::Quadratic{});
+  mpm::press_with("cpdi", mpm::Cpdi{0.25});
 }
