@@ -42,9 +42,10 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       member<N>("fmpm_order", &N::fmpm_order, {.bound = from_to(2, 8)},
                 "k of FMPM(k): how far the mass matrix is inverted; each more is a pass")
           .when({[](const N& n) { return n.scheme->refines; }, "scheme: fmpm"}),
-      member<N>("update_order", &N::update_order, {},
-                "stress from re-mapped velocities (musl), before (usf) or after (usl) the forces, "
-                "or one half of it before and one after (usavg)"),
+      member<N>(
+          "update_order", &N::update_order, {},
+          "stress from re-mapped velocities (musl; moves too: musl_displacement), before (usf) or "
+          "after (usl) the forces, or one half of it before and one after (usavg)"),
       member<N>("f_bar", &N::f_bar, {},
                 "volumetric increments averaged around every node, against locking near Poisson's "
                 "ratio 1/2; not in plane stress"),

@@ -30,6 +30,7 @@ class Notes {
     Nothing musl_velocity(auto&&...) const { return note("musl_velocity"); }
     Nothing musl_stress(auto&&...) const { return note("musl_stress"); }
     Nothing usavg_stress(auto&&...) const { return note("usavg_stress"); }
+    Nothing musl_displacement(auto&&...) const { return note("musl_displacement"); }
     Nothing usf_stress(auto&&...) const { return note("usf_stress"); }
     Nothing usf_velocity(auto&&...) const { return note("usf_velocity"); }
     Nothing usl(auto&&...) const { return note("usl"); }

@@ -172,8 +172,8 @@ INSTANTIATE_TEST_SUITE_P(
     Methods, SavedRun,
     ::testing::Values(Method{"gimp", "flip", "musl"}, Method{"quadratic", "apic", "musl"},
                       Method{"gimp", "flip", "usf"}, Method{"gimp", "flip", "usl"},
-                      Method{"gimp", "flip", "usavg"}, Method{"cubic", "fmpm", "musl"},
-                      Method{"cpdi", "flip", "musl"}),
+                      Method{"gimp", "flip", "usavg"}, Method{"gimp", "flip", "musl_displacement"},
+                      Method{"cubic", "fmpm", "musl"}, Method{"cpdi", "flip", "musl"}),
     [](const auto& info) { return name_of(info.param); });
 
 TEST(SavedLoadBalance, MovesTheBordersAtTheSameStepsToTheSamePlaces)

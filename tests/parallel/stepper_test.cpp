@@ -118,6 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, FlyingBlock,
                                            Method{quadratic, apic, "usf"}, Method{gimp, pic, "usf"},
                                            Method{gimp, flip, "usl"}, Method{cubic, fmpm, "musl"},
                                            Method{quadratic, flip, "usavg"},
+                                           Method{quadratic, flip, "musl_displacement"},
                                            Method{linear, fmpm, "usf"}, Method{cpdi, apic, "musl"},
                                            Method{cpdi, flip, "usf"}),
                          [](const auto& info) { return name_of(info.param); });

@@ -145,7 +145,7 @@ class ConfinedCompression(ExactLine):
                 self.compare(f"numerics.scheme={scheme}")
 
     def test_update_orders(self):
-        for order in ("usf", "usl", "usavg"):
+        for order in ("usf", "usl", "usavg", "musl_displacement"):
             with self.subTest(order=order):
                 self.compare(f"numerics.update_order={order}")
 

@@ -110,11 +110,12 @@ class Plan(ProgramTest):
     def test_usf_and_usl_hold_no_re_mapped_momentum(self):
         for order, passes in (("usf", ["usf_stress", "usf_velocity"]), ("usl", ["usl"]),
                               ("musl", ["musl_velocity", "musl_stress"]),
-                              ("usavg", ["usf_stress", "musl_velocity", "usavg_stress"])):
+                              ("usavg", ["usf_stress", "musl_velocity", "usavg_stress"]),
+                              ("musl_displacement", ["musl_velocity", "musl_displacement"])):
             with self.subTest(order):
                 plan = self.planned("confined_block", f"numerics.update_order={order}")
                 self.assertEqual(plan["passes"], passes)
-                maps_back = order in ("musl", "usavg")
+                maps_back = order not in ("usf", "usl")
                 self.assertEqual("remapped_momentum" in plan["nodes"]["bytes"], maps_back)
                 self.assertEqual("grid_velocity" in plan["particles"]["cell_wall"]["bytes"],
                                  maps_back)

@@ -34,7 +34,7 @@ class BlockInSpace(ExactLine):
     def test_shape_functions_schemes_and_orders(self):
         for setting in ("numerics.shape_function=linear", "numerics.scheme=tpic",
                         "numerics.update_order=usf", "numerics.update_order=usl",
-                        "numerics.update_order=usavg"):
+                        "numerics.update_order=usavg", "numerics.update_order=musl_displacement"):
             with self.subTest(setting):
                 self.compare(setting, scene=BLOCK)
 

@@ -44,6 +44,27 @@ template <int Dim, CarriesDomain Shape>
                      gradient);
 }
 
+/// As that of tensor products.
+template <int Dim, CarriesDomain Shape>
+[[gnu::always_inline]] inline void gather_gradient_velocity(const Stencil<Dim, Shape>& stencil,
+                                                            const GridTopology<Dim>& grid,
+                                                            const NodeFields<Dim>& fields,
+                                                            Lanes (&velocity)[Dim])
+{
+  constexpr int width = NodeFields<Dim>::velocity_width;
+  alignas(lane_alignment) double out[lane_count][width];
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const double* first = fields.gradient_velocity.data() + std::size_t(stencil.base[lane]) * width;
+    Record<width> total = 0.0;
+    for_each_node<Dim, Shape>(grid, [&](int node, std::size_t at) {
+      total +=
+          Record<width>(first + at * width, stdx::element_aligned) * stencil.weight[node][lane];
+    });
+    total.copy_to(out[lane], stdx::element_aligned);
+  }
+  first_columns<width>(out[0], velocity);
+}
+
 /// Sum w div of the divergences around the nodes, 1/s.
 template <int Dim, CarriesDomain Shape>
 [[gnu::always_inline]] inline Lanes gather_divergence(const Stencil<Dim, Shape>& stencil,

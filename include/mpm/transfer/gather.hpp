@@ -77,6 +77,38 @@ template <int Dim, class Shape>
   }
 }
 
+/// Sum w v of the grid's gradient velocity, m/s.
+template <int Dim, class Shape>
+[[gnu::always_inline]] inline void gather_gradient_velocity(const Stencil<Dim, Shape>& stencil,
+                                                            const GridTopology<Dim>& grid,
+                                                            const NodeFields<Dim>& fields,
+                                                            Lanes (&velocity)[Dim])
+{
+  constexpr int n = Shape::support, layers = Dim == 3 ? n : 1;
+  constexpr int width = NodeFields<Dim>::velocity_width;
+  const auto& w = stencil.weight;
+  alignas(lane_alignment) double out[lane_count][width];
+  for (int lane = 0; lane < lane_count; ++lane) {
+    const double* first = fields.gradient_velocity.data() + std::size_t(stencil.base[lane]) * width;
+    Record<width> total = 0.0;
+    for (int c = 0; c < layers; ++c)
+      for (int b = 0; b < n; ++b) {
+        std::size_t at = b * std::size_t(grid.stride(1));
+        double across = w[1][b][lane];
+        if constexpr (Dim == 3) {
+          at += c * std::size_t(grid.stride(2));
+          across *= w[2][c][lane];
+        }
+        Record<width> row = 0.0;
+        for (int a = 0; a < n; ++a)
+          row += Record<width>(first + (at + a) * width, stdx::element_aligned) * w[0][a][lane];
+        total += row * across;
+      }
+    total.copy_to(out[lane], stdx::element_aligned);
+  }
+  first_columns<width>(out[0], velocity);
+}
+
 /// Divergence, 1/s, of a velocity gradient as `gather_gradient` leaves it.
 template <int Dim>
 [[gnu::always_inline]] inline Lanes trace_of(const double* gradient)

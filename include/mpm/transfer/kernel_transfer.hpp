@@ -110,6 +110,17 @@ class KernelTransfer final : public Transfer<Dim> {
         part, grid, fields, dt, &bounds);
   }
 
+  PassOutcome<Dim> musl_displacement(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                     NodeFields<Dim>& fields, double dt,
+                                     const MoveBounds<Dim>& bounds) const override
+  {
+    return pass<PassContent{.gradient = true,
+                            .move = true,
+                            .one_displacement = true,
+                            .scatter = {.mass = true, .momentum = true, .force = true}}>(
+        part, grid, fields, dt, &bounds);
+  }
+
   PassOutcome<Dim> usf_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                               NodeFields<Dim>& fields, double dt) const override
   {
@@ -183,7 +194,9 @@ class KernelTransfer final : public Transfer<Dim> {
     if constexpr (Content.gradient || Content.scatter.force) fetch(particles.state(), block);
   }
 
-  /// Of the chunk from `first` on, as far as there are blocks before `end`.
+  /// Of the chunk from `first` on, as far as there are blocks before `end`. A move by the same
+  /// velocity takes the place of the one by the updated velocity.
+  template <PassContent Content>
   [[gnu::always_inline]] void gather_gradients(ParticleStore& particles, LocalIndex first,
                                                LocalIndex end, const GridFrame<Dim>& frame,
                                                const GridTopology<Dim>& grid,
@@ -191,7 +204,14 @@ class KernelTransfer final : public Transfer<Dim> {
                                                double* gradient) const
   {
     for (LocalIndex b = first; b < std::min(first + chunk, end); ++b) {
-      gather_gradient(stencil_of(particles.motion().block(b), frame), grid, fields, gradient);
+      double* motion = particles.motion().block(b);
+      const Stencil<Dim, Shape> stencil = stencil_of(motion, frame);
+      gather_gradient(stencil, grid, fields, gradient);
+      if constexpr (Content.one_displacement) {
+        Lanes u[Dim];
+        gather_gradient_velocity(stencil, grid, fields, u);
+        store_all(u, motion, Columns::grid_velocity);
+      }
       gradient += Dim * Dim * lane_count;
     }
   }
@@ -228,7 +248,7 @@ class KernelTransfer final : public Transfer<Dim> {
     Scatter<Dim, Shape, Content.scatter> scatter(grid, fields);
     ParticleStore& particles = part.body.particles;
     if constexpr (Content.gradient)
-      gather_gradients(particles, part.first, part.end, frame, grid, fields, gradient);
+      gather_gradients<Content>(particles, part.first, part.end, frame, grid, fields, gradient);
     for (LocalIndex first = part.first; first < part.end; first += chunk) {
       const int blocks = std::min(chunk, int(part.end - first));
       double* state = particles.state().block(first);
@@ -245,7 +265,8 @@ class KernelTransfer final : public Transfer<Dim> {
         }
         part.body.law->update(state, blocks, gradient, stress_dt, force_stress);
         // The law's arithmetic is one long chain; what the next blocks gather fills its gaps.
-        gather_gradients(particles, first + chunk, part.end, frame, grid, fields, gradient);
+        gather_gradients<Content>(particles, first + chunk, part.end, frame, grid, fields,
+                                  gradient);
       } else if constexpr (Content.scatter.force) {
         part.body.law->force_stress(state, blocks, force_stress);
       }

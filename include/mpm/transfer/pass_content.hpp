@@ -14,7 +14,8 @@ struct PassContent {
   bool half_stress = false;  ///< by half of the step
   bool velocity = false;     ///< G2P of the velocity
   bool move = false;
-  ScatterContent scatter;  ///< P2G at the new place
+  bool one_displacement = false;  ///< the move is by the velocity whose gradient is taken
+  ScatterContent scatter;         ///< P2G at the new place
 };
 
 }  // namespace mpm

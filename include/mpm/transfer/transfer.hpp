@@ -112,6 +112,10 @@ class Transfer {
   virtual PassOutcome<Dim> musl_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                        NodeFields<Dim>& fields, double dt,
                                        const MoveBounds<Dim>& bounds) const = 0;
+  /// The same, and the move is by the gradient velocity.
+  virtual PassOutcome<Dim> musl_displacement(const BodyPart<Dim>& part,
+                                             const GridTopology<Dim>& grid, NodeFields<Dim>& fields,
+                                             double dt, const MoveBounds<Dim>& bounds) const = 0;
   // USF, two passes.
   /// Velocity gradient, stress, P2G of the force.
   virtual PassOutcome<Dim> usf_stress(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,

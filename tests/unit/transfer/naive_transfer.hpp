@@ -197,6 +197,14 @@ struct NaiveTransfer {
     }
   }
 
+  void gradient_velocity_to_moves(const Nodes& nodes, Particles& particles) const
+  {
+    for (auto& p : particles) {
+      p.u.setZero();
+      for (const auto& node : nodes) p.u += weight(p, node) * node.gradient_velocity;
+    }
+  }
+
   /// With the gradient that the stress has seen.
   static void move(Particles& particles, double dt)
   {

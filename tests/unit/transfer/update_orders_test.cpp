@@ -56,6 +56,30 @@ TEST_P(UpdateOrders, MuslRemapsTheNewVelocitiesThenUpdatesStressAndMoves)
 }
 
 template <int Dim>
+void expect_one_displacement(TransferCase c)
+{
+  Cloud<Dim> cloud(c, true);
+  cloud.set_random_velocities();
+  cloud.transfer->musl_velocity(cloud.body, cloud.grid.topology, cloud.grid.fields);
+  cloud.naive.velocity_to_particles(cloud.nodes, cloud.particles);
+  cloud.transfer->musl_displacement(cloud.body, cloud.grid.topology, cloud.grid.fields, dt,
+                                    cloud.wide_bounds());
+  cloud.naive.stress_update(cloud.nodes, cloud.particles, dt);
+  cloud.naive.gradient_velocity_to_moves(cloud.nodes, cloud.particles);
+  cloud.naive.move(cloud.particles, dt);
+  forget_sums<Dim>(cloud.nodes);
+  cloud.naive.to_grid(cloud.particles, cloud.nodes);
+  expect_particles_equal(cloud);
+  expect_nodes_equal(cloud);
+}
+
+TEST_P(UpdateOrders, MuslDisplacementMovesByTheVelocityThatTheStressSees)
+{
+  expect_one_displacement<2>(parameters());
+  expect_one_displacement<3>(parameters());
+}
+
+template <int Dim>
 void expect_usf(TransferCase c)
 {
   Cloud<Dim> cloud(c);
