@@ -55,6 +55,8 @@ std::vector<Plan::LeftOut> left_out(const Preparation<Dim>& preparation, const P
   add_if(!particles_hold(plan, "deformation_gradient"), "deformation gradient", "no law needs it");
   add_if(!particles_hold(plan, "affine_velocity"), "affine velocity",
          fmt::format("not of scheme {}", numerics.scheme->keyword));
+  add_if(!particles_hold(plan, domain_column), "particle domains",
+         fmt::format("not of shape function {}", numerics.shape_function->keyword));
   add_if(!particles_hold(plan, "grid_velocity"), "grid velocity of particles",
          fmt::format("{} moves them as it reads it", numerics.update_order->keyword));
   add_if(!particles_hold(plan, "initial_position"), "first places",

@@ -102,10 +102,13 @@ class Plan(ProgramTest):
         self.assertNotIn("deformation gradient", plan["left_out"])
 
     def test_particles_have_domains_where_the_shape_function_deforms_them(self):
-        self.assertNotIn("domain", self.planned("confined_block")["particles"]["cell_wall"]["bytes"])
+        plan = self.planned("confined_block")
+        self.assertNotIn("domain", plan["particles"]["cell_wall"]["bytes"])
+        self.assertIn("particle domains", plan["left_out"])
         for name, width in (("confined_block", 4), ("confined_block_space", 9)):
             plan = self.planned(name, "numerics.shape_function=cpdi")
             self.assertEqual(plan["particles"]["cell_wall"]["bytes"]["domain"], width * 8)
+            self.assertNotIn("particle domains", plan["left_out"])
 
     def test_usf_and_usl_hold_no_re_mapped_momentum(self):
         for order, passes in (("usf", ["usf_stress", "usf_velocity"]), ("usl", ["usl"]),

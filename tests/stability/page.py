@@ -96,7 +96,7 @@ def critical_text(table):
     for method, found in json.loads(CRITICAL.read_text()).items():
         measured = [found[name] for name in ("bar", "corner", "corner_nu", "drift", "crush")]
         text.append(f"| {', '.join(keys_of(method))} | " + " | ".join(
-            "none" if value == 0 else "2 or more" if value >= 2 else f"{value:g}"
+            "none" if value == 0 else "3 or more" if value >= 3 else f"{value:g}"
             for value in measured) + f" | {table['limits'][method]:g} | {found['default']:.2g} |")
     return "\n".join(text) + "\n"
 

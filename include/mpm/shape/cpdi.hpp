@@ -95,15 +95,12 @@ struct Cpdi {
       }
       for (int a = 0; a < support; ++a) {
         const int node = row * support + a;
-        Lanes sum = 0.0, difference[Dim];
-        for (Lanes& d : difference) d = 0.0;
-        for (int c = 0; c < corners; ++c) {
-          const Lanes value = hat[0][c][a] * across[c];
-          sum += value;
-          for (int k = 0; k < Dim; ++k)
-            difference[k] = sign(c, k) > 0 ? difference[k] + value : difference[k] - value;
-        }
-        store(share * sum, weight[node]);
+        Lanes value[corners], difference[Dim];  // sum_c s_ck N(x_c)
+        for (int c = 0; c < corners; ++c) value[c] = hat[0][c][a] * across[c];
+        difference[0] = fold<corners / 2>(value);
+        difference[1] = fold<corners / 4>(value);
+        if constexpr (Dim == 3) difference[2] = fold<1>(value);
+        store(share * value[0], weight[node]);
         for (int d = 0; d < Dim; ++d) {
           Lanes slope = inverse[Dim * d] * difference[0];
           for (int k = 1; k < Dim; ++k) slope += inverse[k + Dim * d] * difference[k];
@@ -114,6 +111,19 @@ struct Cpdi {
   }
 
  private:
+  /// Values of 2 Count corners, which lie below and above by turns along an axis: leaves their sums
+  /// over this axis, and returns the sum of the differences.
+  template <int Count>
+  [[gnu::always_inline]] static Lanes fold(Lanes* value)
+  {
+    Lanes difference = 0.0;
+    for (int k = 0; k < Count; ++k) {
+      const Lanes below = value[2 * k], above = value[2 * k + 1];
+      difference += above - below;
+      value[k] = below + above;
+    }
+    return difference;
+  }
   static constexpr double sign(int corner, int axis) { return corner >> axis & 1 ? 1.0 : -1.0; }
 };
 

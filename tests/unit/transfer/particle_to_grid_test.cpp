@@ -124,6 +124,35 @@ TEST_P(ParticleToGrid, WithoutForceLeavesTheForcesZero)
 }
 
 template <int Dim>
+void compare_forces_from_outside(TransferCase c)
+{
+  Cloud<Dim> cloud(c);
+  std::vector<Vec<Dim>> force(cloud.count);
+  for (Vec<Dim>& f : force) f = cloud.template numbers<Dim, 1>();
+  cloud.transfer->load_force(cloud.body, cloud.grid.topology, cloud.grid.fields,
+                             [&](LocalIndex block, Lanes(&values)[Dim]) {
+                               for (int d = 0; d < Dim; ++d)
+                                 values[d] = Lanes([&](int lane) {
+                                   const int p = block * lane_count + lane;
+                                   return p < cloud.count ? force[p][d] : 0.0;
+                                 });
+                             });
+  for (std::size_t i = 0; i < cloud.nodes.size(); ++i) {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (int p = 0; p < cloud.count; ++p)
+      sum += cloud.naive.weight(cloud.particles[p], cloud.nodes[i]) * force[p];
+    const Eigen::Map<const Vec<Dim>> found(&cloud.grid.fields.load_force[i * Dim]);
+    EXPECT_LT((found - sum).norm(), 50 * rounding) << "node " << i;
+  }
+}
+
+TEST_P(ParticleToGrid, OfForcesFromOutsideEqualsTheDoubleLoop)
+{
+  compare_forces_from_outside<2>(parameters());
+  compare_forces_from_outside<3>(parameters());
+}
+
+template <int Dim>
 void put_particles_on_grid_lines(OneOf<ShapeRow> shape)
 {
   Cloud<Dim> cloud({shape, "flip"});
