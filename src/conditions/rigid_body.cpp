@@ -68,9 +68,11 @@ void RigidBody<Dim>::find_nodes(const Nodes<Dim>& nodes, double time)
   const Vec<Dim> tolerance = on_the_face * nodes.spacing(), period = nodes.period();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Vec<Dim> moved;
+  for (int d = 0; d < Dim; ++d) moved[d] = motion_[d].displacement(time);
+  if (found_for_ && found_for_->listing == nodes.listing() && found_for_->moved == moved) return;
+  found_for_ = Found{nodes.listing(), moved};
   Region<Dim> region;
   for (int d = 0; d < Dim; ++d) {
-    moved[d] = motion_[d].displacement(time);
     const bool anywhere = period[d] > 0;  // its images may lie across the seam
     region.lower[d] = anywhere ? -infinity : bounds_.lower[d] + moved[d] - tolerance[d];
     region.upper[d] = anywhere ? infinity : bounds_.upper[d] + moved[d] + tolerance[d];

@@ -14,6 +14,9 @@ RigidWall<Dim>::RigidWall(const WallPlacement& placement, const WallMotion& moti
 template <int Dim>
 void RigidWall<Dim>::find_nodes(const Nodes<Dim>& nodes, double time)
 {
+  const Found wanted{nodes.listing(), position(time)};
+  if (found_for_ == wanted) return;
+  found_for_ = wanted;
   // From the node nearest to the face on. Were it the first one behind the face, the last cell in
   // front would be squeezed as a full one however little of it is left: the stress of a block of 20
   // cells would be 18 % low at 10 % strain, and particles would end up behind the face.
@@ -22,9 +25,9 @@ void RigidWall<Dim>::find_nodes(const Nodes<Dim>& nodes, double time)
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Region<Dim> behind{Vec<Dim>::Constant(-infinity), Vec<Dim>::Constant(infinity)};
   if (placement_.upper)
-    behind.lower[axis] = position(time) - reach;
+    behind.lower[axis] = wanted.position - reach;
   else
-    behind.upper[axis] = position(time) + reach;
+    behind.upper[axis] = wanted.position + reach;
   nodes.find_within(behind, found_);
 }
 

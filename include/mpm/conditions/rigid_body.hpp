@@ -3,6 +3,7 @@
 #include <mpm/conditions/wall_motion.hpp>
 
 #include <array>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -34,6 +35,12 @@ class RigidBody final : public BoundaryCondition<Dim> {
   Region<Dim> bounds_;                                              ///< of all boxes at time 0
   Vec<Dim> half_size_;
   std::array<WallMotion, Dim> motion_;
+  /// What the nodes that were found last depend on.
+  struct Found {
+    GlobalIndex listing;
+    Vec<Dim> moved;  ///< m
+  };
+  std::optional<Found> found_for_;
   std::vector<LocalIndex> near_, found_;  ///< found: nodes on and inside the body, ascending
 };
 

@@ -2,6 +2,9 @@
 #include <mpm/conditions/boundary_condition.hpp>
 #include <mpm/conditions/wall_motion.hpp>
 
+#include <optional>
+#include <vector>
+
 namespace mpm {
 
 enum class WallGrip {
@@ -40,11 +43,18 @@ class RigidWall final : public BoundaryCondition<Dim> {
   }
 
  private:
+  /// What the nodes that were found last depend on.
+  struct Found {
+    GlobalIndex listing;
+    double position;  ///< m, of the face
+    bool operator==(const Found&) const = default;
+  };
   void find_nodes(const Nodes<Dim>& nodes, double time);
 
   WallPlacement placement_;
   WallMotion motion_;
   WallGrip grip_;
+  std::optional<Found> found_for_;
   std::vector<LocalIndex> found_;  ///< nodes at the face and behind it
 };
 

@@ -44,6 +44,7 @@ class GridTopology final : public Nodes<Dim> {
   const Vec<Dim>& spacing() const override { return geometry_.spacing; }
   Vec<Dim> period() const override;
   void find_within(const Region<Dim>& region, std::vector<LocalIndex>& nodes) const override;
+  GlobalIndex listing() const override { return listing_; }
 
   /// Active nodes: those that particles can reach before the next such call, and the ones that
   /// must stay active because other ranks reach them. Everything else is never touched. Between
@@ -64,12 +65,15 @@ class GridTopology final : public Nodes<Dim> {
   std::size_t bytes() const { return owned_.size() + touched_.size() + kept_.size(); }
 
  private:
+  static GlobalIndex new_listing();
+
   GridGeometry<Dim> geometry_;
   IndexBox<Dim> local_;
   IndexVec<Dim> stride_;
   LocalIndex size_;
   std::vector<char> owned_, touched_, kept_;
   std::vector<NodeRun<Dim>> runs_;
+  GlobalIndex listing_ = new_listing();
 };
 
 }  // namespace mpm

@@ -29,6 +29,9 @@ class Nodes {
   /// Numbers, ascending, of the nodes in a region that particles may have reached; images of
   /// periodic nodes count with the place that they stand for.
   virtual void find_within(const Region<Dim>& region, std::vector<LocalIndex>& nodes) const = 0;
+  /// A number that no other nodes have had in this process: as long as it stays, so do the answers
+  /// of `find_within`.
+  virtual GlobalIndex listing() const = 0;
   virtual Vec<Dim> position(LocalIndex node) const = 0;  ///< m
   /// Every node of the whole run has one owner; images are owned by nobody.
   virtual bool is_owned(LocalIndex node) const = 0;
