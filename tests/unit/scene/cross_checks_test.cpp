@@ -162,7 +162,7 @@ TEST_F(CrossChecks, AffineSchemesWithLinearShapeFunctions)
       problems(smallest + linear + "tpic}\n"),
       ElementsAre("a.yaml:7:44: numerics.scheme is 'tpic' (with linear shape functions no time "
                   "step is stable at free edges). Use scheme: flip, or shape_function: gimp, "
-                  "quadratic or cubic."));
+                  "quadratic, cubic or cpdi."));
   EXPECT_EQ(problems(smallest + linear + "apic}\n").size(), 1u);
   EXPECT_TRUE(problems(smallest + linear + "pic}\n").empty());
 }
