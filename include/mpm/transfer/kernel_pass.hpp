@@ -32,6 +32,7 @@ class KernelPass {
     return stencil_at(x, motion, frame);
   }
   /// At a place that may not be in the columns yet.
+  template <bool WithGradient = true>
   [[gnu::always_inline]] Stencil<Dim, Shape> stencil_at(const Lanes (&x)[Dim], const double* motion,
                                                         const GridFrame<Dim>& frame) const
   {
@@ -40,7 +41,7 @@ class KernelPass {
       load_all(motion, Columns::domain, domain);
       return Stencil<Dim, Shape>(x, domain, frame, shape_);
     } else {
-      return Stencil<Dim, Shape>(x, frame, shape_);
+      return Stencil<Dim, Shape>(x, frame, shape_, std::bool_constant<WithGradient>());
     }
   }
 
@@ -162,7 +163,7 @@ class KernelPass {
     const Lanes mass = load(motion + Columns::mass * lane_count);
 
     if constexpr (Content.refine) {
-      const Stencil<Dim, Shape> stencil = stencil_at(x, motion, frame);
+      const Stencil<Dim, Shape> stencil = stencil_at<false>(x, motion, frame);
       Lanes gathered[2 * Dim], momentum[Dim];
       gather_velocity<false>(stencil, grid, fields, stencil.gradient, gathered, affine);
       for (int d = 0; d < Dim; ++d) momentum[d] = mass * gathered[Dim + d];
@@ -170,7 +171,7 @@ class KernelPass {
       return;
     }
     if constexpr (Content.velocity) {
-      Stencil<Dim, Shape> stencil = stencil_at(x, motion, frame);
+      Stencil<Dim, Shape> stencil = stencil_at<Scheme::affine>(x, motion, frame);
       alignas(lane_alignment) typename Stencil<Dim, Shape>::Columns affine_weight;
       if constexpr (Scheme::affine) {
         stencil.measure_offsets(frame);
@@ -222,7 +223,7 @@ class KernelPass {
       store_all(x, motion, Columns::position);
     }
 
-    Stencil<Dim, Shape> stencil = stencil_at(x, motion, force_frame);
+    Stencil<Dim, Shape> stencil = stencil_at<Content.scatter.force>(x, motion, force_frame);
     Lanes momentum[Dim];
     for (int d = 0; d < Dim; ++d) momentum[d] = mass * v[d];
     if constexpr (needs_affine) {

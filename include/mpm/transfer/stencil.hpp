@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace mpm {
 
@@ -58,20 +59,22 @@ struct Stencil {
   alignas(lane_alignment) Columns offset;           ///< x_i - x_p, m; filled by `measure_offsets`
   alignas(lane_alignment) double base[lane_count];  ///< first node, local numbering (whole numbers)
 
+  /// Without gradients where nobody asks for them: what a call could read, no compiler drops.
+  template <bool WithGradient = true>
   [[gnu::always_inline]] Stencil(const Lanes (&position)[Dim], const GridFrame<Dim>& frame,
-                                 const Shape& shape)
+                                 const Shape& shape, std::bool_constant<WithGradient> = {})
   {
     Lanes node = 0.0;
     for (int d = 0; d < Dim; ++d) {
       const Lanes x = in_cells(position[d], frame, d);
       const Lanes first = stdx::floor(x - shape.base_shift());
-      put(shape, frame, d, x, first, node);
+      put<WithGradient>(shape, frame, d, x, first, node);
     }
     store(node, base);
     // Everything anew, from memory: what a call could change would be in no register above.
     if constexpr (Shape::ends_at_walls)
       if (frame.near_walls) [[unlikely]]
-        end_at_walls(position, frame, shape);
+        end_at_walls<WithGradient>(position, frame, shape);
   }
 
   /// For the affine schemes.
@@ -109,6 +112,7 @@ struct Stencil {
   ///
   /// What has slipped behind a wall, by less than a cell, counts as standing at it: no weight is
   /// negative.
+  template <bool WithGradient>
   [[gnu::noinline]] void end_at_walls(const Lanes (&position)[Dim], const GridFrame<Dim>& frame,
                                       const Shape& shape)
   {
@@ -121,12 +125,14 @@ struct Stencil {
       // Just in front of it: the wall's node stays the last but one.
       stdx::where(x >= upper && x < upper + 1.0, x) = std::nextafter(upper, lower);
       const Lanes first = stdx::floor(x - shape.base_shift());
-      put(shape, frame, d, x, first, node);
+      put<WithGradient>(shape, frame, d, x, first, node);
       const LaneMask at_lower = first == lower - 1.0, at_upper = first == upper + (2.0 - support);
-      for (auto* values : {weight[d], gradient[d]}) {
+      const auto end = [&](auto* values) {
         hand_over(at_lower, values[0], values[1], values[2]);
         hand_over(at_upper, values[support - 1], values[support - 2], values[support - 3]);
-      }
+      };
+      end(weight[d]);
+      if constexpr (WithGradient) end(gradient[d]);
     }
     store(node, base);
   }
@@ -161,6 +167,7 @@ struct Stencil {
   }
 
   /// Weights and gradients along one axis; adds its share to the number of the first node.
+  template <bool WithGradient>
   [[gnu::always_inline]] void put(const Shape& shape, const GridFrame<Dim>& frame, int d,
                                   const Lanes& x, const Lanes& first, Lanes& node)
   {
@@ -168,7 +175,7 @@ struct Stencil {
     shape.weights(x - first, frame.gradient_scale[d], w, g);
     for (int a = 0; a < support; ++a) {
       store(w[a], weight[d][a]);
-      store(g[a], gradient[d][a]);
+      if constexpr (WithGradient) store(g[a], gradient[d][a]);
     }
     node += (first - frame.lower[d]) * frame.stride[d];
     local_[d] = x - first;
