@@ -71,10 +71,10 @@ struct Stencil {
       put<WithGradient>(shape, frame, d, x, first, node);
     }
     store(node, base);
-    // Everything anew, from memory: what a call could change would be in no register above.
+    // Everything anew and elsewhere: what a call could see or change would have to be in memory.
     if constexpr (Shape::ends_at_walls)
       if (frame.near_walls) [[unlikely]]
-        end_at_walls<WithGradient>(position, frame, shape);
+        *this = ended_at_walls<WithGradient>(position, frame, shape);
   }
 
   /// For the affine schemes.
@@ -105,6 +105,8 @@ struct Stencil {
   }
 
  private:
+  Stencil() = default;
+
   /// Where a stencil reaches one node beyond a wall, that node moves as the straight line through
   /// the wall's node and the next one has it, v_-1 = 2 v_0 - v_1: its share goes to these two, as
   /// at the end of a spline of open knots, and constant and linear fields stay exact. Without that
@@ -113,10 +115,10 @@ struct Stencil {
   /// What has slipped behind a wall, by less than a cell, counts as standing at it: no weight is
   /// negative.
   template <bool WithGradient>
-  [[gnu::noinline]] void end_at_walls(const Lanes (&position)[Dim], const GridFrame<Dim>& frame,
-                                      const Shape& shape)
+  [[gnu::noinline]] static Stencil ended_at_walls(const Lanes (&position)[Dim],
+                                                  const GridFrame<Dim>& frame, const Shape& shape)
   {
-    if (!reaches_beyond_walls(position, frame, shape)) return;
+    Stencil stencil;
     Lanes node = 0.0;
     for (int d = 0; d < Dim; ++d) {
       const double lower = frame.lower_wall[d], upper = frame.upper_wall[d];
@@ -125,28 +127,17 @@ struct Stencil {
       // Just in front of it: the wall's node stays the last but one.
       stdx::where(x >= upper && x < upper + 1.0, x) = std::nextafter(upper, lower);
       const Lanes first = stdx::floor(x - shape.base_shift());
-      put<WithGradient>(shape, frame, d, x, first, node);
+      stencil.template put<WithGradient>(shape, frame, d, x, first, node);
       const LaneMask at_lower = first == lower - 1.0, at_upper = first == upper + (2.0 - support);
       const auto end = [&](auto* values) {
         hand_over(at_lower, values[0], values[1], values[2]);
         hand_over(at_upper, values[support - 1], values[support - 2], values[support - 3]);
       };
-      end(weight[d]);
-      if constexpr (WithGradient) end(gradient[d]);
+      end(stencil.weight[d]);
+      if constexpr (WithGradient) end(stencil.gradient[d]);
     }
-    store(node, base);
-  }
-
-  static bool reaches_beyond_walls(const Lanes (&position)[Dim], const GridFrame<Dim>& frame,
-                                   const Shape& shape)
-  {
-    LaneMask beyond(false);
-    for (int d = 0; d < Dim; ++d) {
-      const Lanes x = in_cells(position[d], frame, d);
-      beyond = beyond || x < frame.lower_wall[d] + shape.base_shift() ||
-               x > frame.upper_wall[d] + (2 - support + shape.base_shift());
-    }
-    return stdx::any_of(beyond);
+    store(node, stencil.base);
+    return stencil;
   }
 
   /// From the node behind a wall to the wall's and the next one.
