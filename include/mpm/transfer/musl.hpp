@@ -13,6 +13,15 @@ struct Musl {
   template <class Step>
   static void step(Step& s, double dt)
   {
+    step_with(s, dt, [&](const auto& part, const auto& bounds) {
+      return s.transfer.musl_stress(part, s.grid(), s.fields_of(part), dt, bounds);
+    });
+  }
+
+  /// stress(part, bounds): stress, move and sums of a part, once the gradient velocities stand.
+  template <class Step, class Stress>
+  static void step_with(Step& s, double dt, const Stress& stress)
+  {
     using Fields = typename Step::Fields;
     s.update_velocity(dt);  // v_i = ((mv)_i + dt f_i) / m_i
     s.remap_velocity();     // v_p, and back: (mv)_i
@@ -23,9 +32,7 @@ struct Musl {
     s.exchange.move_and_sum(
         s.bodies, s.sums({&Fields::mass_column, &Fields::momentum_force_column}), s.moment, dt,
         [&](const auto& part, const auto& bounds) {
-          // sigma_p, x_p; m_i, (mv)_i, f_i
-          return s.with_loads(
-              part, dt, s.transfer.musl_stress(part, s.grid(), s.fields_of(part), dt, bounds));
+          return s.with_loads(part, dt, stress(part, bounds));  // sigma_p, x_p; m_i, (mv)_i, f_i
         });
   }
 };

@@ -1,5 +1,5 @@
 #pragma once
-#include <mpm/transfer/order.hpp>
+#include <mpm/transfer/musl.hpp>
 
 namespace mpm {
 
@@ -16,21 +16,9 @@ struct MuslDisplacement {
   template <class Step>
   static void step(Step& s, double dt)
   {
-    using Fields = typename Step::Fields;
-    s.update_velocity(dt);  // v_i = ((mv)_i + dt f_i) / m_i
-    s.remap_velocity();     // v_p, and back: (mv)_i
-    s.constrain_gradient(dt);
-    s.average_divergence();
-
-    s.reset();
-    s.exchange.move_and_sum(
-        s.bodies, s.sums({&Fields::mass_column, &Fields::momentum_force_column}), s.moment, dt,
-        [&](const auto& part, const auto& bounds) {
-          // sigma_p, x_p; m_i, (mv)_i, f_i
-          return s.with_loads(
-              part, dt,
-              s.transfer.musl_displacement(part, s.grid(), s.fields_of(part), dt, bounds));
-        });
+    Musl::step_with(s, dt, [&](const auto& part, const auto& bounds) {
+      return s.transfer.musl_displacement(part, s.grid(), s.fields_of(part), dt, bounds);
+    });
   }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <mpm/transfer/order.hpp>
+#include <mpm/transfer/usf.hpp>
 
 namespace mpm {
 
@@ -19,14 +19,7 @@ struct Usavg {
   static void step(Step& s, double dt)
   {
     using Fields = typename Step::Fields;
-    for (Fields& field : s.fields) field.gradient_from_momentum(s.grid().runs());
-    s.constrain_gradient(0);
-    s.average_divergence();
-    s.exchange.pass_and_sum(
-        s.bodies, s.columns({&Fields::force_column}), s.moment, [&](const auto& part) {
-          // sigma_p of half the step; f_i
-          return s.transfer.usf_stress(part, s.grid(), s.fields_of(part), 0.5 * dt);
-        });
+    Usf::update_stress(s, 0.5 * dt);
     s.update_velocity(dt);
     s.remap_velocity();
     s.constrain_gradient(dt);

@@ -11,8 +11,9 @@ struct Usf {
                                       .begins_with_force = false,
                                       .stress_moment = -0.5};
 
+  /// Of the present velocities, with the forces that follow.
   template <class Step>
-  static void step(Step& s, double dt)
+  static void update_stress(Step& s, double dt)
   {
     using Fields = typename Step::Fields;
     for (Fields& field : s.fields) field.gradient_from_momentum(s.grid().runs());
@@ -22,6 +23,13 @@ struct Usf {
         s.bodies, s.columns({&Fields::force_column}), s.moment, [&](const auto& part) {
           return s.transfer.usf_stress(part, s.grid(), s.fields_of(part), dt);  // sigma_p; f_i
         });
+  }
+
+  template <class Step>
+  static void step(Step& s, double dt)
+  {
+    using Fields = typename Step::Fields;
+    update_stress(s, dt);
     s.update_velocity(dt);
 
     s.reset();

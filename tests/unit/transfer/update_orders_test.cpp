@@ -22,6 +22,21 @@ void forget_sums(typename NaiveTransfer<Dim>::Nodes& nodes)
   }
 }
 
+constexpr bool without_force = true;
+
+/// The end of a step: moved, and the sums of the new places.
+template <int Dim>
+void expect_moved(Cloud<Dim>& cloud, bool no_force = false)
+{
+  cloud.naive.move(cloud.particles, dt);
+  forget_sums<Dim>(cloud.nodes);
+  cloud.naive.to_grid(cloud.particles, cloud.nodes);
+  if (no_force)
+    for (NaiveNode<Dim>& node : cloud.nodes) node.force.setZero();
+  expect_particles_equal(cloud);
+  expect_nodes_equal(cloud);
+}
+
 template <int Dim>
 void expect_musl(TransferCase c)
 {
@@ -42,11 +57,7 @@ void expect_musl(TransferCase c)
   cloud.transfer->musl_stress(cloud.body, cloud.grid.topology, cloud.grid.fields, dt,
                               cloud.wide_bounds());
   cloud.naive.stress_update(cloud.nodes, cloud.particles, dt);
-  cloud.naive.move(cloud.particles, dt);
-  forget_sums<Dim>(cloud.nodes);
-  cloud.naive.to_grid(cloud.particles, cloud.nodes);
-  expect_particles_equal(cloud);
-  expect_nodes_equal(cloud);
+  expect_moved(cloud);
 }
 
 TEST_P(UpdateOrders, MuslRemapsTheNewVelocitiesThenUpdatesStressAndMoves)
@@ -66,11 +77,7 @@ void expect_one_displacement(TransferCase c)
                                     cloud.wide_bounds());
   cloud.naive.stress_update(cloud.nodes, cloud.particles, dt);
   cloud.naive.gradient_velocity_to_moves(cloud.nodes, cloud.particles);
-  cloud.naive.move(cloud.particles, dt);
-  forget_sums<Dim>(cloud.nodes);
-  cloud.naive.to_grid(cloud.particles, cloud.nodes);
-  expect_particles_equal(cloud);
-  expect_nodes_equal(cloud);
+  expect_moved(cloud);
 }
 
 TEST_P(UpdateOrders, MuslDisplacementMovesByTheVelocityThatTheStressSees)
@@ -122,12 +129,7 @@ void expect_usavg(TransferCase c)
   cloud.transfer->usavg_stress(cloud.body, cloud.grid.topology, cloud.grid.fields, dt,
                                cloud.wide_bounds());
   cloud.naive.stress_update(cloud.nodes, cloud.particles, 0.5 * dt);
-  cloud.naive.move(cloud.particles, dt);
-  forget_sums<Dim>(cloud.nodes);
-  cloud.naive.to_grid(cloud.particles, cloud.nodes);
-  for (NaiveNode<Dim>& node : cloud.nodes) node.force.setZero();
-  expect_particles_equal(cloud);
-  expect_nodes_equal(cloud);
+  expect_moved(cloud, without_force);
 }
 
 TEST_P(UpdateOrders, UsavgEndsWithHalfOfTheStrainAndAWholeMove)
