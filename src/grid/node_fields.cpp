@@ -86,11 +86,11 @@ void NodeFields<Dim>::update_velocity(Runs runs, double dt)
 }
 
 template <int Dim>
-void NodeFields<Dim>::begin_refinement(Runs runs)
+void NodeFields<Dim>::begin_refinement(Runs runs, bool before_forces)
 {
   for_each_node(runs, [&](LocalIndex node) {
     double* u = updated_of(node);
-    for (int d = 0; d < Dim; ++d) u[Dim + d] = u[d];
+    for (int d = 0; d < Dim; ++d) u[Dim + d] = u[d] - (before_forces ? u[Dim + d] : 0);
   });
 }
 

@@ -98,6 +98,10 @@ void check_run(const Checked& checked)
   if (numerics.f_bar && numerics.plane == Plane::stress)
     checked.refuse("numerics.f_bar", "in plane stress the thickness follows, and nothing locks",
                    "Leave it out");
+  if (checked.sound("grid.particles_per_cell") && numerics.domain > scene.grid.particles_per_cell)
+    checked.refuse("numerics.domain", "domains would be larger than a cell",
+                   fmt::format("Set at most {}, as many as grid.particles_per_cell",
+                               scene.grid.particles_per_cell));
   if (numerics.decomposition == DecompositionKind::metis && checked.given("numerics.ranks"))
     checked.refuse("numerics.ranks", "METIS makes no process grid", "Use decomposition: cuts");
 

@@ -38,10 +38,18 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 "out of the plane")
           .in_plane(),
       member<N>("shape_function", &N::shape_function, {}, "how particles and nodes share"),
+      member<N>("domain", &N::domain, {.bound = from_to(0.25, 8)},
+                "size of GIMP's domains over that of a particle; at most a cell")
+          .when({[](const N& n) { return n.shape_function->has_domain; }, "shape_function: gimp"}),
       member<N>("scheme", &N::scheme, {}, "what particles take from the grid"),
-      member<N>("fmpm_order", &N::fmpm_order, {.bound = from_to(2, 8)},
-                "k of FMPM(k): how far the mass matrix is inverted; each more is a pass")
-          .when({[](const N& n) { return n.scheme->refines; }, "scheme: fmpm"}),
+      member<N>("pic_share", &N::pic_share, {.bound = from_to(0, 1)},
+                "of the grid's velocity in the particles', each step: a blend of FLIP and PIC")
+          .when({[](const N& n) { return n.scheme->book == ReactionBook::increments; },
+                 "scheme: flip"}),
+      member<N>("refinement_order", &N::refinement_order, {.bound = from_to(2, 8)},
+                "k of FMPM(k), m of XPIC(m): how far the mass matrix is inverted; each more is a "
+                "pass")
+          .when({[](const N& n) { return n.scheme->refines; }, "scheme: fmpm or xpic"}),
       member<N>(
           "update_order", &N::update_order, {},
           "stress from re-mapped velocities (musl; moves too: musl_displacement), before (usf) or "

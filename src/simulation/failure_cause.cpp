@@ -49,7 +49,7 @@ std::string likely_cause(const Preparation<Dim>& preparation, GlobalIndex partic
     return " Likely cause: the wall is thinner than two cells where this particle was at the "
            "start. Refine grid.cells.";
   if (std::holds_alternative<scene::FreeMotion>(preparation.scene.motion) &&
-      numerics.scheme->book == ReactionBook::increments)
+      reaction_book(numerics) == ReactionBook::increments)
     return fmt::format(
         " Likely cause: noise of particles that cross cells, which {} keeps and which grows in "
         "free "

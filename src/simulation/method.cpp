@@ -22,7 +22,14 @@ double default_cfl(const scene::Numerics& numerics)
 
 StepExtras extras_of(const scene::Numerics& numerics)
 {
-  return {numerics.scheme->refines ? numerics.fmpm_order - 1 : 0, numerics.f_bar};
+  return {numerics.scheme->refines ? numerics.refinement_order - 1 : 0,
+          numerics.scheme->refines_before_forces, numerics.f_bar};
+}
+
+ReactionBook reaction_book(const scene::Numerics& numerics)
+{
+  const double share = numerics.scheme->book.velocity_share;
+  return {share + numerics.pic_share * (1 - share)};
 }
 
 template <int Dim>
@@ -42,8 +49,9 @@ template <int Dim>
 std::unique_ptr<Transfer<Dim>> make_transfer(const scene::Numerics& numerics,
                                              int particles_per_cell)
 {
-  return make_transfer<Dim>(numerics.shape_function, numerics.scheme, particles_per_cell,
-                            numerics.f_bar);
+  return make_transfer<Dim>(
+      numerics.shape_function, numerics.scheme,
+      {numerics.domain / particles_per_cell, numerics.pic_share, numerics.f_bar});
 }
 
 template <int Dim>

@@ -154,7 +154,7 @@ void add_apparatus(const scene::Scene& scene, const Specimen<Dim>& specimen,
   const WallGrip grip = grip_of(loading.grip);
   const auto wall = [&](int axis, bool upper, double position, const WallMotion& motion) {
     auto made = std::make_unique<RigidWall<Dim>>(WallPlacement{axis, upper, position}, motion, grip,
-                                                 scene.numerics.scheme->book);
+                                                 reaction_book(scene.numerics));
     RigidWall<Dim>* pointer = made.get();
     model.setup.slots.conditions.push_back(std::move(made));
     return pointer;
@@ -194,7 +194,7 @@ void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, Model<D
       if (!side) continue;
       auto condition =
           make_side<Dim>(**side, {placement_of(specimen, axis, upper), model.apparatus.has_value(),
-                                  scene.numerics.scheme->book});
+                                  reaction_book(scene.numerics)});
       if (!condition) continue;
       const auto* wall = dynamic_cast<const RigidWall<Dim>*>(condition.get());
       if (model.apparatus && wall) model.apparatus->at_rest.push_back(wall);
@@ -205,7 +205,7 @@ void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, Model<D
   for (const scene::MovingSide& side : free->moving_sides)
     model.setup.slots.conditions.push_back(std::make_unique<RigidWall<Dim>>(
         placement_of(specimen, axis_of(side.side), upper_of(side.side)),
-        WallMotion{.table = side.table}, grip_of(side.grip), scene.numerics.scheme->book));
+        WallMotion{.table = side.table}, grip_of(side.grip), reaction_book(scene.numerics)));
 }
 
 /// Collective. Throws InputError on every rank for a load that finds no particle.
@@ -274,7 +274,7 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
     }
     setup.slots.conditions.push_back(std::make_unique<RigidBody<Dim>>(
         points_of(int(k), specimen, layout, decomposition.comm()), 0.5 * layout.location_size,
-        motion_of<Dim>(material), scene.numerics.scheme->book));
+        motion_of<Dim>(material), reaction_book(scene.numerics)));
   }
   if (layout.load_cell) {
     const scene::Material material = load_cell_material(scene, layout.load_cell->density_ratio);

@@ -152,7 +152,7 @@ void look_at_flight(const scene::Scene& scene, const Layout<Dim>& layout, Warnin
 {
   const scene::Numerics& numerics = scene.numerics;
   if (!std::holds_alternative<scene::FreeMotion>(scene.motion) ||
-      numerics.scheme->book != ReactionBook::increments || numerics.update_order->stable_cfl)
+      reaction_book(numerics) != ReactionBook::increments || numerics.update_order->stable_cfl)
     return;
   const double end =
       std::min(layout.end_time, expected_steps(scene, layout) * time_step_of(layout).first());

@@ -23,7 +23,7 @@ void Step<Dim>::update_velocity(double dt)
 template <int Dim>
 void Step<Dim>::refine_velocity(double dt)
 {
-  for (Fields& field : fields) field.begin_refinement(grid().runs());
+  for (Fields& field : fields) field.begin_refinement(grid().runs(), extras.refine_before_forces);
   for (int k = 0; k < extras.refinements; ++k) {
     sum_remap(&Transfer<Dim>::refine_velocity);
     for (Fields& field : fields) {

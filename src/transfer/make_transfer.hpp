@@ -5,7 +5,7 @@ namespace mpm {
 
 /// One shape function with every scheme, compiled by itself (shape_transfer.cpp.in).
 template <int Dim, class Shape>
-std::unique_ptr<Transfer<Dim>> make_shape_transfer(OneOf<SchemeRow> scheme, int particles_per_cell,
-                                                   bool f_bar);
+std::unique_ptr<Transfer<Dim>> make_shape_transfer(OneOf<SchemeRow> scheme,
+                                                   const TransferOptions& options);
 
 }  // namespace mpm

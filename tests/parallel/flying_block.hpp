@@ -107,7 +107,7 @@ class BlockRun {
                                                      const std::vector<Block>& blocks,
                                                      Conditions conditions)
   {
-    auto transfer = make_transfer<2>(method.shape, method.scheme, 2);
+    auto transfer = make_transfer<2>(method.shape, method.scheme, {0.5});
     std::vector<Body<2>> bodies;
     for (const Block& block : blocks) {
       auto law = make_hencky(PlaneAssumption::strain, {youngs_modulus, 0.3}, density, block.yield);
@@ -123,6 +123,7 @@ class BlockRun {
     constexpr double volume = 0.25 * cell * cell;
     UpdatedLagrangian<2>::Setup setup{std::move(transfer), method.order, std::move(bodies)};
     setup.extras.refinements = method.scheme->refines ? 3 : 0;
+    setup.extras.refine_before_forces = method.scheme->refines_before_forces;
     setup.slots.conditions = std::move(conditions);
     setup.mass_cut = 1e-12 * density * volume;
     return std::make_unique<UpdatedLagrangian<2>>(decomposition_, std::move(setup));

@@ -22,7 +22,7 @@ struct WalledCloud {
   std::vector<Body<Dim>> bodies;
 
   explicit WalledCloud(const std::string& shape)
-      : transfer(make_transfer<Dim>(OneOf<ShapeRow>(shape), OneOf<SchemeRow>("flip"), 2))
+      : transfer(make_transfer<Dim>(OneOf<ShapeRow>(shape), OneOf<SchemeRow>("flip"), {0.5}))
   {
     Body<Dim>& body = bodies.emplace_back(Body<Dim>{
         "cloud", 0, 1.0, nullptr,

@@ -78,7 +78,7 @@ std::unique_ptr<UpdatedLagrangian<Dim>> stepper(
     const std::function<Vec<Dim>(const Vec<Dim>&)>& speed)
 {
   typename UpdatedLagrangian<Dim>::Setup setup;
-  setup.transfer = make_transfer<Dim>(shape, "flip", 2);
+  setup.transfer = make_transfer<Dim>(shape, "flip", {0.5});
   setup.order = "musl";
   setup.bodies.push_back(filled(decomposition, *setup.transfer, cells, speed));
   setup.mass_cut = 1e-20;

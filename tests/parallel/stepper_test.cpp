@@ -15,7 +15,8 @@ using ::testing::HasSubstr;
 
 const OneOf<ShapeRow> linear = "linear", gimp = "gimp", quadratic = "quadratic", cubic = "cubic",
                       cpdi = "cpdi";
-const OneOf<SchemeRow> flip = "flip", pic = "pic", apic = "apic", tpic = "tpic", fmpm = "fmpm";
+const OneOf<SchemeRow> flip = "flip", pic = "pic", apic = "apic", tpic = "tpic", fmpm = "fmpm",
+                       xpic = "xpic";
 
 /// Three in a row and two rows for six ranks, so that corners are crossed.
 IndexVec<2> two_rows()
@@ -198,8 +199,9 @@ INSTANTIATE_TEST_SUITE_P(Methods, PressedBlocks,
                                            Method{gimp, flip, "usf"},
                                            Method{quadratic, flip, "usf"},
                                            Method{gimp, flip, "usl"}, Method{gimp, fmpm, "musl"},
-                                           Method{cubic, flip, "musl"}, Method{cpdi, flip, "musl"},
-                                           Method{cpdi, fmpm, "usf"}, Method{cpdi, flip, "usl"}),
+                                           Method{gimp, xpic, "musl"}, Method{cubic, flip, "musl"},
+                                           Method{cpdi, flip, "musl"}, Method{cpdi, fmpm, "usf"},
+                                           Method{cpdi, flip, "usl"}),
                          [](const auto& info) { return name_of(info.param); });
 
 /// Steps until the run stops; its words. Collective.

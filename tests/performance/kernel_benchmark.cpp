@@ -27,7 +27,7 @@ struct Block {
   Block(const Case& c, bool with_musl)
       : parameters(c),
         musl(with_musl),
-        transfer(make_transfer<Dim>(c.shape, c.scheme, 2)),
+        transfer(make_transfer<Dim>(c.shape, c.scheme, {0.5})),
         grid(geometry<Dim>(cells_per_axis<Dim>), whole_grid(), whole_grid(), 0),
         body(make_body<Dim>(*transfer, musl, c.plastic, cells_per_axis<Dim>, rate))
   {

@@ -42,7 +42,7 @@ class PressedBlock {
   std::unique_ptr<UpdatedLagrangian<Dim>> make_stepper() const
   {
     constexpr LocalIndex cells = cells_per_axis<Dim>;
-    auto transfer = make_transfer<Dim>(parameters.shape, parameters.scheme, 2);
+    auto transfer = make_transfer<Dim>(parameters.shape, parameters.scheme, {0.5});
     std::vector<Body<Dim>> bodies;
     bodies.push_back(make_body<Dim>(*transfer, order->remaps, parameters.plastic, cells, rate));
     std::vector<std::unique_ptr<BoundaryCondition<Dim>>> walls;

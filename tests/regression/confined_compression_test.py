@@ -140,9 +140,13 @@ class ConfinedCompression(ExactLine):
 
     def test_schemes_that_interpolate_velocities_close_the_energy_balance_too(self):
         # Their walls book reactions from the velocity itself; what they damp is small here.
-        for scheme in ("pic", "apic", "tpic", "fmpm"):
+        for scheme in ("pic", "apic", "tpic", "fmpm", "xpic"):
             with self.subTest(scheme=scheme):
                 self.compare(f"numerics.scheme={scheme}")
+
+    def test_a_blend_of_flip_and_pic_closes_the_energy_balance_too(self):
+        # Its walls book reactions from both.
+        self.compare("numerics.pic_share=0.05")
 
     def test_update_orders(self):
         for order in ("usf", "usl", "usavg", "musl_displacement"):

@@ -48,7 +48,7 @@ SCENES = [  # name, scene, settings, columns of a particle and of a node
     ("elastic block in space, MUSL", "confined_block_space", [],
      [IN_SPACE | ELASTIC_IN_SPACE | {"grid_velocity": 24}],
      NODES_IN_SPACE | {"remapped_momentum": 32}),
-    ("elastic block in space, USL, FMPM", "confined_block_space",
+    ("elastic block in space, USF, FMPM", "confined_block_space",
      ["numerics.scheme=fmpm", "numerics.update_order=usf",
       LOAD.replace("ACCELERATION", "[1 m/s^2, 0 m/s^2, 0 m/s^2]")],
      [IN_SPACE | ELASTIC_IN_SPACE], NODES_IN_SPACE | {"remapped_momentum": 32, "load_force": 24}),

@@ -32,8 +32,9 @@ class BoundaryCondition {
                  double after)
   {
     double* u = fields.updated_of(node);
+    const double as_increment = before + u[Dim + component];
     const double free_velocity =
-        book_ == ReactionBook::increments ? before + u[Dim + component] : u[component];
+        as_increment + book_.velocity_share * (u[component] - as_increment);
     u[component] = after;
     u[Dim + component] = after - before;
     if (!owned) return;

@@ -57,7 +57,8 @@ class NodeFields {
   void update_velocity(Runs runs, double dt);
   /// The updated velocity v of the lumped mass matrix is the first approximation v_1 of the one of
   /// the full matrix, and the first residual: r_1 = v_1, which takes the place of the increment.
-  void begin_refinement(Runs runs);
+  /// With `before_forces` r_1 = v_1 - dv, and the increment stays what the lumped matrix says.
+  void begin_refinement(Runs runs, bool before_forces);
   /// With the re-mapped momentum m S+ S r_k: v_k+1 = v_k + r_k+1, r_k+1 = r_k - S+ S r_k.
   /// Conditions may then change the updated velocity; `end_refinement` takes r_k+1 from what is
   /// left. `gradient_velocity` holds v_k in between.

@@ -114,7 +114,9 @@ struct Numerics {
   double thickness = 1;         ///< m, out of the plane
   OneOf<ShapeRow> shape_function = "gimp";
   OneOf<SchemeRow> scheme = "flip";
-  int fmpm_order = 4;  ///< of a scheme that refines the grid's velocity
+  double domain = 1;         ///< of GIMP, over the size of a particle
+  double pic_share = 0;      ///< of the grid's velocity in that of FLIP
+  int refinement_order = 4;  ///< of a scheme that refines the grid's velocity
   OneOf<UpdateOrderRow> update_order = "musl";
   bool f_bar = false;         ///< the stress sees means of the divergence
   std::optional<double> cfl;  ///< default depends on shape function and update order

@@ -23,7 +23,7 @@ struct Cpdi {
                                                .stress_last = 0.5},
                                 .cfl_share = 0.7,
                                 .step_cost = 115};
-  static Cpdi make(int particles_per_cell) { return {0.5 / particles_per_cell}; }
+  static Cpdi make(double domain) { return {0.5 * domain}; }
 
   static constexpr bool carries_domain = true;
   static constexpr bool ends_at_walls = false;
@@ -41,7 +41,7 @@ struct Cpdi {
   /// Of det R in cells: below it, or inverted, the domain counts as the box of a particle at rest.
   static constexpr double smallest_volume = 1e-9;
 
-  double half_size;  ///< of a particle at rest, in cells: 1 / (2 x particles per cell, direction)
+  double half_size;  ///< of a particle at rest, in cells
 
   /// `axes`: component d of r_k at d + Dim * k, in cells of axis d. Shortens along each axis by
   /// itself what reaches too far (a limit in the spirit of Homel, Brannon & Guilkey 2016, IJNME

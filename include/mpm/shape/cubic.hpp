@@ -16,7 +16,7 @@ struct Cubic {
                                                .stress_last = 1.08},
                                 .cfl_share = 0.7,
                                 .step_cost = 75};
-  static Cubic make(int) { return {}; }
+  static Cubic make(double) { return {}; }
 
   static constexpr bool ends_at_walls = true;
   static constexpr int support = 4;

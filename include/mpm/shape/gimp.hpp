@@ -20,12 +20,13 @@ struct Gimp {
                                                .refined = 1.02,
                                                .stress_last = 0.59},
                                 .cfl_share = 0.7,
-                                .step_cost = 50};
-  static Gimp make(int particles_per_cell) { return {0.5 / particles_per_cell}; }
+                                .step_cost = 50,
+                                .has_domain = true};
+  static Gimp make(double domain) { return {0.5 * domain}; }
 
   static constexpr bool ends_at_walls = false;
   static constexpr int support = 3;
-  double half_size;  ///< of a particle domain, in cells: 1 / (2 x particles per cell and direction)
+  double half_size;  ///< of a particle domain, in cells
 
   double base_shift() const { return half_size; }
 

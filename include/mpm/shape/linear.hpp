@@ -7,7 +7,8 @@ namespace mpm {
 /// Linear (hat) functions: 2 nodes per axis. Gradients jump at cell boundaries ("cell crossing").
 ///
 /// Every shape function has the same members. `row`: what else the program knows of it. `make`:
-/// from the particles per cell and direction. `support` is the number of nodes per axis.
+/// from the size of a particle's domain at rest, in cells. `support` is the number of nodes per
+/// axis.
 /// `ends_at_walls`: whether it is cut off at walls at rest (transfer/stencil.hpp), beyond which it
 /// would reach.
 /// `base_shift()`: the first node of a particle at x is floor(x/h - base_shift). `weights`: r is
@@ -24,7 +25,7 @@ struct Linear {
       .stable_cfl = {.increments = 1.42, .velocities = 1.25, .refined = 0.9},
       .cfl_share = 0.42,
       .step_cost = 35};
-  static Linear make(int) { return {}; }
+  static Linear make(double) { return {}; }
 
   static constexpr bool ends_at_walls = false;
   static constexpr int support = 2;

@@ -18,7 +18,7 @@ struct Quadratic {
                                                .stress_last = 0.69},
                                 .cfl_share = 0.7,
                                 .step_cost = 50};
-  static Quadratic make(int) { return {}; }
+  static Quadratic make(double) { return {}; }
 
   static constexpr bool ends_at_walls = true;
   static constexpr int support = 3;

@@ -26,6 +26,7 @@ struct ShapeRow {
   /// 512-bit vectors, in the plane: the order of magnitude of a run time, from the shipped block
   /// scenes.
   double step_cost;
+  bool has_domain = false;  ///< of a size that the scene may change (numerics.domain)
 };
 
 }  // namespace mpm

@@ -14,6 +14,8 @@ namespace mpm {
 std::optional<double> stable_cfl_of(const scene::Numerics& numerics);
 double default_cfl(const scene::Numerics& numerics);
 StepExtras extras_of(const scene::Numerics& numerics);
+/// What the reactions of walls are measured from.
+ReactionBook reaction_book(const scene::Numerics& numerics);
 template <int Dim>
 TimeStep time_step_of(const Layout<Dim>& layout);
 /// At least, or where the scene ends the run before: compression makes steps shorter on the way.

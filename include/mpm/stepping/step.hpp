@@ -10,8 +10,9 @@ namespace mpm {
 
 /// What a step does beside what its order says.
 struct StepExtras {
-  int refinements = 0;  ///< of the updated velocity, for a scheme that refines
-  bool f_bar = false;   ///< the stress sees means of the divergence
+  int refinements = 0;                ///< of the velocity, for a scheme that refines
+  bool refine_before_forces = false;  ///< only what the velocity was before the forces
+  bool f_bar = false;                 ///< the stress sees means of the divergence
   /// Whether the nodes hold a re-mapped momentum for them.
   bool remap() const { return refinements > 0 || f_bar; }
 };

@@ -21,7 +21,10 @@ class KernelPass {
  public:
   using Columns = MotionColumns<Dim, Scheme, has_domain>;
 
-  KernelPass(Shape shape, bool f_bar) : shape_(shape), f_bar_(f_bar) {}
+  KernelPass(const TransferOptions& options)
+      : shape_(Shape::make(options.domain)), pic_share_(options.pic_share), f_bar_(options.f_bar)
+  {
+  }
 
   /// At the particles' place.
   [[gnu::always_inline]] Stencil<Dim, Shape> stencil_of(const double* motion,
@@ -187,6 +190,9 @@ class KernelPass {
         u[d] = gathered[d];
         v[d] = Scheme::increments ? v[d] + gathered[Dim + d] : gathered[d];
       }
+      if constexpr (Scheme::increments)
+        if (pic_share_ > 0) [[unlikely]]
+          for (int d = 0; d < Dim; ++d) v[d] += pic_share_ * (u[d] - v[d]);
       store_all(v, motion, Columns::velocity);
       if constexpr (Scheme::affine) store_all(affine, motion, Columns::affine);
       if constexpr (!Content.move) {
@@ -235,6 +241,7 @@ class KernelPass {
   }
 
   Shape shape_;
+  double pic_share_;
   bool f_bar_;
 };
 

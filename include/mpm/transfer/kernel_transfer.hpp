@@ -13,7 +13,7 @@ class KernelTransfer final : public Transfer<Dim> {
   using Columns = typename KernelPass<Dim, Shape, Scheme>::Columns;
 
  public:
-  KernelTransfer(Shape shape, bool f_bar) : kernel_(shape, f_bar) {}
+  KernelTransfer(const TransferOptions& options) : kernel_(options) {}
 
   std::vector<Column> motion_columns(bool musl) const override { return Columns::columns(musl); }
   int support() const override { return Shape::support; }
@@ -59,7 +59,7 @@ class KernelTransfer final : public Transfer<Dim> {
   PassOutcome<Dim> refine_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                                    NodeFields<Dim>& fields) const override
   {
-    if constexpr (Scheme::row.refines)
+    if constexpr (!Scheme::increments && !Scheme::affine)
       return kernel_.template run<PassContent{.refine = true, .scatter = {.remap = true}}>(
           part, grid, fields, 0, nullptr);
     else

@@ -16,14 +16,20 @@ namespace mpm {
 
 /// Which momentum a reaction is measured from; it must fit the scheme, or the energy balance opens
 /// by a quarter of the work.
-enum class ReactionBook {
+struct ReactionBook {
+  /// Of what particles receive: blends have something of both.
+  double velocity_share;
+
   /// FLIP: particles receive (v after - v constrained before), so the projection of the particle
   /// velocities onto the wall is no impulse: R dt = m (v after constraint - v before constraint),
   /// both with the constrained velocity at the start of the step.
-  increments,
+  static const ReactionBook increments;
   /// PIC, APIC, TPIC: particles receive the velocity itself: R dt = m v after - (mv + f dt).
-  velocities
+  static const ReactionBook velocities;
+  bool operator==(const ReactionBook&) const = default;
 };
+constexpr ReactionBook ReactionBook::increments{0};
+constexpr ReactionBook ReactionBook::velocities{1};
 
 struct SchemeRow {
   std::string_view keyword;
@@ -32,8 +38,10 @@ struct SchemeRow {
   ReactionBook book;
   bool affine;  ///< whether particles have an affine velocity field
   std::optional<double> StableCfl::*stable_cfl;
-  /// Whether the grid's velocity is refined before particles take it (NodeFields::refine).
+  /// Whether the grid's velocity is refined before particles take it (NodeFields::refine), and
+  /// whether only the part that it had before the forces.
   bool refines = false;
+  bool refines_before_forces = false;
 };
 
 /// The motion columns that every particle has, first of all.

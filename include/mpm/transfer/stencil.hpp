@@ -74,7 +74,8 @@ struct Stencil {
     // Everything anew and elsewhere: what a call could see or change would have to be in memory.
     if constexpr (Shape::ends_at_walls)
       if (frame.near_walls) [[unlikely]]
-        *this = ended_at_walls<WithGradient>(position, frame, shape);
+        if (reaches_beyond(position, frame, shape))
+          *this = ended_at_walls<WithGradient>(position, frame, shape);
   }
 
   /// For the affine schemes.
@@ -106,6 +107,19 @@ struct Stencil {
 
  private:
   Stencil() = default;
+
+  /// Whether the stencil of a lane reaches beyond a wall.
+  [[gnu::always_inline]] static bool reaches_beyond(const Lanes (&position)[Dim],
+                                                    const GridFrame<Dim>& frame, const Shape& shape)
+  {
+    LaneMask within(true);
+    for (int d = 0; d < Dim; ++d) {
+      const Lanes first = stdx::floor(in_cells(position[d], frame, d) - shape.base_shift());
+      within =
+          within && first >= frame.lower_wall[d] && first <= frame.upper_wall[d] + (1.0 - support);
+    }
+    return !stdx::all_of(within);
+  }
 
   /// Where a stencil reaches one node beyond a wall, that node moves as the straight line through
   /// the wall's node and the next one has it, v_-1 = 2 v_0 - v_1: its share goes to these two, as

@@ -69,6 +69,15 @@ struct BodyPart {
   }
 };
 
+/// What a scene may say of shape functions and schemes.
+struct TransferOptions {
+  double domain;         ///< size of a particle's domain at rest, in cells (GIMP, CPDI)
+  double pic_share = 0;  ///< of the grid's velocity in that of schemes that take increments
+  /// Velocity gradients that the stress sees have the divergence that the nodes hold
+  /// (NodeFields::divergence_from_remap) in place of their own.
+  bool f_bar = false;
+};
+
 /// Textbook names: P2G, G2P. Each pass is compiled for one dimension, shape function and scheme;
 /// materials enter through Law. "Old place" and "new place" are before and after the move.
 template <int Dim>
@@ -136,11 +145,8 @@ class Transfer {
                                const MoveBounds<Dim>& bounds) const = 0;
 };
 
-/// `particles_per_cell` per direction sets the particle domain of uniform GIMP. With `f_bar` the
-/// velocity gradients that the stress sees have the divergence that the nodes hold
-/// (NodeFields::divergence_from_remap) in place of their own.
 template <int Dim>
 std::unique_ptr<Transfer<Dim>> make_transfer(OneOf<ShapeRow> shape, OneOf<SchemeRow> scheme,
-                                             int particles_per_cell, bool f_bar = false);
+                                             const TransferOptions& options);
 
 }  // namespace mpm

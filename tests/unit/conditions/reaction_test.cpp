@@ -68,9 +68,11 @@ TEST(Reaction, OfVelocitiesIsTheWholeChangeOfMomentum)
 TEST(Reaction, OfOneNodeByHand)
 {
   // A resting node of 2 kg whose force would give it 0.5 m/s hits a piston of constant -3 m/s: the
-  // increments' book sees 2 (-3 - (-3 + 0.5)) = -1 N s, the velocities' 2 (-3 - 0.5) = -7 N s.
+  // increments' book sees 2 (-3 - (-3 + 0.5)) = -1 N s, the velocities' 2 (-3 - 0.5) = -7 N s, and
+  // one of a quarter of the velocities 0.75 * -1 + 0.25 * -7.
   for (const auto& [book, impulse] :
-       {std::pair{ReactionBook::increments, -1.0}, std::pair{ReactionBook::velocities, -7.0}}) {
+       {std::pair{ReactionBook::increments, -1.0}, std::pair{ReactionBook::velocities, -7.0},
+        std::pair{ReactionBook{0.25}, -2.5}}) {
     MovingNodes<2> nodes(1.9);
     std::ranges::fill(nodes.grid.fields.mass, 0.0);
     const LocalIndex node = nodes.grid.topology.index_of({5, 3});

@@ -150,9 +150,24 @@ TEST_F(CrossChecks, RefinedVelocitiesWithStressLast)
               ElementsAre("a.yaml:7:26: numerics.update_order is 'usl' (with fmpm the stable step "
                           "falls with every refinement of the velocity that the stress sees). Use "
                           "update_order: musl."));
-  EXPECT_THAT(problems(smallest + "numerics: {scheme: fmpm, fmpm_order: 9}\n"),
-              ElementsAre("a.yaml:7:38: numerics.fmpm_order is 9 (must be at most 8)."));
-  EXPECT_EQ(problems(smallest + "numerics: {scheme: flip, fmpm_order: 3}\n").size(), 1u);
+  EXPECT_THAT(problems(smallest + "numerics: {scheme: fmpm, refinement_order: 9}\n"),
+              ElementsAre("a.yaml:7:44: numerics.refinement_order is 9 (must be at most 8)."));
+  EXPECT_EQ(problems(smallest + "numerics: {scheme: flip, refinement_order: 3}\n").size(), 1u);
+}
+
+TEST_F(CrossChecks, DomainsLargerThanACellAndOfShapeFunctionsWithoutAny)
+{
+  EXPECT_THAT(problems(smallest + "numerics: {domain: 2.5}\n"),
+              ElementsAre("a.yaml:7:20: numerics.domain is 2.5 (domains would be larger than a "
+                          "cell). Set at most 2, as many as grid.particles_per_cell."));
+  EXPECT_TRUE(problems(smallest + "numerics: {domain: 2}\n").empty());
+  EXPECT_EQ(problems(smallest + "numerics: {shape_function: linear, domain: 1}\n").size(), 1u);
+}
+
+TEST_F(CrossChecks, SharesOfPicInSchemesThatTakeTheGridVelocity)
+{
+  EXPECT_TRUE(problems(smallest + "numerics: {pic_share: 0.01}\n").empty());
+  EXPECT_EQ(problems(smallest + "numerics: {scheme: apic, pic_share: 0.01}\n").size(), 1u);
 }
 
 TEST_F(CrossChecks, AffineSchemesWithLinearShapeFunctions)

@@ -82,8 +82,7 @@ TEST_F(InputErrors, PoissonRatioOfOneHalf)
 
 TEST_F(InputErrors, WrongTypes)
 {
-  EXPECT_THAT(
-      problems(smallest + R"(grid: 150
+  EXPECT_THAT(problems(smallest + R"(grid: 150
 steps: 2.5
 numerics: {scheme: flipp, cfl: fast, ranks: 4}
 output:
@@ -92,16 +91,16 @@ output:
 title: [a]
 name:
 )"),
-      ElementsAre("a.yaml:7:7: grid is 150 (must be a map with keys such as cells: ...).",
-                  "a.yaml:8:8: steps is 2.5 (must be a whole number).",
-                  "a.yaml:9:20: numerics.scheme is 'flipp' (must be flip, pic, apic, tpic or "
-                  "fmpm; did you mean 'flip'?).",
-                  "a.yaml:9:32: numerics.cfl is 'fast' (must be a number). Write e.g. 2.",
-                  "a.yaml:9:45: numerics.ranks is 4 (must be a list of 2).",
-                  "a.yaml:11:13: output.compress is 'maybe' (must be true or false).",
-                  "a.yaml:12:11: output.fields is 'stress' (must be a list).",
-                  "a.yaml:13:8: title is ['a'] (must be a text).",
-                  "a.yaml:14:1: name is empty (must be a text)."));
+              ElementsAre("a.yaml:7:7: grid is 150 (must be a map with keys such as cells: ...).",
+                          "a.yaml:8:8: steps is 2.5 (must be a whole number).",
+                          "a.yaml:9:20: numerics.scheme is 'flipp' (must be flip, pic, apic, tpic, "
+                          "fmpm or xpic; did you mean 'flip'?).",
+                          "a.yaml:9:32: numerics.cfl is 'fast' (must be a number). Write e.g. 2.",
+                          "a.yaml:9:45: numerics.ranks is 4 (must be a list of 2).",
+                          "a.yaml:11:13: output.compress is 'maybe' (must be true or false).",
+                          "a.yaml:12:11: output.fields is 'stress' (must be a list).",
+                          "a.yaml:13:8: title is ['a'] (must be a text).",
+                          "a.yaml:14:1: name is empty (must be a text)."));
 }
 
 TEST_F(InputErrors, KeysOfAnotherLaw)

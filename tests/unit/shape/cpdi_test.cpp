@@ -29,7 +29,7 @@ struct Weights {
       scale[d] = 1;
       for (int k = 0; k < Dim; ++k) axes[d + Dim * k] = domain(d, k);
     }
-    const Cpdi shape = Cpdi::make(2);
+    const Cpdi shape = Cpdi::make(0.5);
     shape.limit<Dim>(axes);
     for (int k = 0; k < Dim * Dim; ++k) seen(k % Dim, k / Dim) = axes[k][lane_count - 1];
     shape.weights<Dim>(r, axes, scale, weight, gradient);

@@ -13,7 +13,7 @@ namespace {
 /// A shape function made for so many particles per cell and direction.
 template <class Shape, int ParticlesPerCell>
 struct Case {
-  static Shape shape() { return Shape::make(ParticlesPerCell); }
+  static Shape shape() { return Shape::make(1.0 / ParticlesPerCell); }
 };
 template <class... Shape>
 testing::Types<Case<Shape, 1>..., Case<Shape, 2>..., Case<Shape, 3>...> cases_of(

@@ -48,6 +48,16 @@ TEST(QuadraticShape, HasTheValuesOfTheQuadraticSpline)
   EXPECT_THAT(s.gradient, Pointwise(DoubleNear(rounding), {-0.2, -0.6, 0.8}));
 }
 
+TEST(GimpShape, IsTheQuadraticSplineWhereTheDomainIsACell)
+{
+  for (const double x : {2.0, 2.3, 2.5, 2.8}) {
+    const auto gimp = sample(Gimp::make(1), x), spline = sample(Quadratic{}, x);
+    EXPECT_EQ(gimp.base, spline.base);
+    EXPECT_THAT(gimp.weight, Pointwise(DoubleNear(rounding), spline.weight));
+    EXPECT_THAT(gimp.gradient, Pointwise(DoubleNear(rounding), spline.gradient));
+  }
+}
+
 TEST(QuadraticShape, OnANodeIsSymmetric)
 {
   const auto s = sample(Quadratic{}, 4.0);

@@ -45,9 +45,10 @@ struct Cloud {
   typename NaiveTransfer<Dim>::Nodes nodes;
   std::mt19937 random{5};
 
-  explicit Cloud(TransferCase c, bool musl = false, bool f_bar = false)
+  explicit Cloud(TransferCase c, bool musl = false, bool f_bar = false, double pic_share = 0)
       : parameters(c),
-        transfer(make_transfer<Dim>(c.shape, c.scheme, particles_per_cell, f_bar)),
+        transfer(
+            make_transfer<Dim>(c.shape, c.scheme, {1.0 / particles_per_cell, pic_share, f_bar})),
         grid(geometry(), local(), local(), 0),
         body{"cloud", 0, 1.0, std::make_unique<RecordingLaw<Dim>>(), store(musl)},
         naive{{c.shape, 0.5 / particles_per_cell}, c.scheme, geometry().spacing}

@@ -74,6 +74,23 @@ TEST(FlipScheme, AddsTheIncrementAndForgetsTheGridVelocity)
   }
 }
 
+TEST(FlipScheme, BlendsWithTheGridVelocity)
+{
+  for (const char* shape : {"quadratic", "cpdi"}) {
+    Cloud<2> cloud({shape, "flip"}, false, false, 0.25);
+    cloud.set_velocities([](NaiveNode<2>& n) {
+      n.velocity = {100, 200};
+      n.increment = {0.25, -0.5};
+    });
+    cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, 0, cloud.wide_bounds());
+    for (int p = 0; p < cloud.count; ++p) {
+      const Vec<2> v(cloud.body.particles.motion()(2, p), cloud.body.particles.motion()(3, p));
+      const Vec<2> flip = cloud.particles[p].v + Vec<2>(0.25, -0.5);
+      EXPECT_LT((v - 0.75 * flip - 0.25 * Vec<2>(100, 200)).norm(), 10 * rounding);
+    }
+  }
+}
+
 TEST(PicScheme, TakesTheGridVelocityAndForgetsItsOwn)
 {
   Cloud<2> cloud({"gimp", "pic"});

@@ -31,8 +31,8 @@ TEST(MethodLists, EveryShapeFunctionGoesWithEverySchemeInThePlaneAndInSpace)
 {
   for (const OneOf<ShapeRow> shape : all_of_list<ShapeRow>())
     for (const OneOf<SchemeRow> scheme : all_of_list<SchemeRow>()) {
-      const auto plane = make_transfer<2>(shape, scheme, 2);
-      const auto space = make_transfer<3>(shape, scheme, 2);
+      const auto plane = make_transfer<2>(shape, scheme, {0.5});
+      const auto space = make_transfer<3>(shape, scheme, {0.5});
       ASSERT_TRUE(plane && space);
       EXPECT_EQ(plane->support(), space->support());
       int components = 0;

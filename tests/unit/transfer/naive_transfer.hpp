@@ -50,7 +50,7 @@ struct NaiveShape {
     for_each_type(ShapeTypes{}, [&]<class Shape>() {
       if constexpr (!CarriesDomain<Shape>) {
         if (kind != Shape::row.keyword) return;
-        const Shape shape = Shape::make(int(std::lround(0.5 / l)));
+        const Shape shape = Shape::make(2 * l);
         const double base = std::floor(r - shape.base_shift());
         Lanes w[Shape::support], g[Shape::support];
         shape.weights(Lanes(r - base), 1, w, g);

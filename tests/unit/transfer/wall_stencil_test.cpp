@@ -31,9 +31,9 @@ Stencil<2, Shape> stencil_at(const Lanes (&position)[2], const GridFrame<2>& fra
 {
   if constexpr (CarriesDomain<Shape>) {
     const Lanes domain[4] = {0.25 * h, 0.0, 0.0, 0.25 * h};
-    return {position, domain, frame, Shape::make(2)};
+    return {position, domain, frame, Shape::make(0.5)};
   } else {
-    return {position, frame, Shape::make(2)};
+    return {position, frame, Shape::make(0.5)};
   }
 }
 

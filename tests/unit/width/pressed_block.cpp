@@ -114,12 +114,13 @@ void press(const char* name, const Transfer<2>& transfer, std::unique_ptr<Law<2>
 }
 
 template <class Shape>
-void press_with(const char* name, Shape shape)
+void press_with()
 {
-  const KernelTransfer<2, Shape, Flip> transfer(shape, false);
-  press((std::string(name) + "-hencky").c_str(), transfer,
+  const KernelTransfer<2, Shape, Flip> transfer(TransferOptions{0.5});
+  const std::string name(Shape::row.keyword);
+  press((name + "-hencky").c_str(), transfer,
         make_hencky(PlaneAssumption::strain, wall_material, density, yield));
-  press((std::string(name) + "-hypoelastic").c_str(), transfer,
+  press((name + "-hypoelastic").c_str(), transfer,
         make_hypoelastic_von_mises(PlaneAssumption::strain, wall_material, yield, density));
 }
 
@@ -129,8 +130,8 @@ void press_with(const char* name, Shape shape)
 int main()
 {
   std::printf("width %d\n", mpm::lane_count);
-  mpm::press_with("linear", mpm::Linear{});
-  mpm::press_with("gimp", mpm::Gimp{0.25});
-  mpm::press_with("quadratic", mpm::Quadratic{});
-  mpm::press_with("cpdi", mpm::Cpdi{0.25});
+  mpm::press_with<mpm::Linear>();
+  mpm::press_with<mpm::Gimp>();
+  mpm::press_with<mpm::Quadratic>();
+  mpm::press_with<mpm::Cpdi>();
 }
