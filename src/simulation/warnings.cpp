@@ -1,3 +1,4 @@
+#include <mpm/micrograph/early_contact.hpp>
 #include <mpm/micrograph/wall_thickness.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/warnings.hpp>
@@ -23,6 +24,9 @@ constexpr double many_steps = 1e8;
 constexpr double locking_ratio = 0.45;
 /// In cells: noise has grown tenfold or more (docs/stability.md).
 constexpr double long_flight = 30;
+
+/// Crushing, in which gaps close, and what their early contact may take of the strain.
+constexpr double crushing_strain = 0.1, early_strain = 0.01;
 
 using Warnings = std::vector<std::string>;
 
@@ -91,6 +95,24 @@ void look_at_reach(const scene::Scene& scene, const micrograph::Specimen<Dim>& s
         "mm of empty layers on the way to the last of them. Crop the specimen, or raise "
         "loading.strain.",
         1e3 * travel, unmet, specimen.particles(), 1e3 * gap));
+}
+
+/// Bodies in one velocity field touch before they meet.
+template <int Dim>
+void look_at_contact(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+                     const Layout<Dim>& layout, const micrograph::Share& share, Warnings& warnings)
+{
+  const auto& loading = std::get<scene::Loading>(scene.motion);
+  const int axis = axis_of(loading.piston);
+  if (loading.strain < crushing_strain) return;
+  const double early = micrograph::early_contact(specimen, axis, share);
+  if (early <= early_strain) return;
+  warnings.push_back(fmt::format(
+      "contact closes gaps about a cell too early: {:.1f} of them on the piston's way are {:.1f} % "
+      "of "
+      "strain once all are closed. Half the cell, half of that: refine grid.cells, or let "
+      "mpm_study --error-bar estimate the error.",
+      early * specimen.size()[axis] / layout.geometry.spacing[axis], 100 * early));
 }
 
 template <int Dim>
@@ -178,8 +200,10 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
   look_at_order(scene.numerics, warnings);
   look_at_locking(scene, warnings);
   look_at_flight(scene, layout, warnings);
-  if (std::holds_alternative<scene::Loading>(scene.motion))
+  if (std::holds_alternative<scene::Loading>(scene.motion)) {
+    look_at_contact(scene, specimen, layout, share, warnings);
     look_at_reach(scene, specimen, layout, share, warnings);
+  }
   if (const auto limit = stable_cfl_of(scene.numerics); limit && layout.cfl > *limit)
     warnings.push_back(fmt::format(
         "numerics.cfl is {:.3g}, beyond {:.3g}, the limit of {} with {} and {}: noise will grow. "

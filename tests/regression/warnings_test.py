@@ -136,10 +136,23 @@ class Warnings(ProgramTest):
 
     def test_particles_that_the_piston_never_meets(self):
         # 0.4 mm of empty layers before the second box of 6 x 20 cells of 4 particles.
-        self.assert_only(self.warnings(APART), "never meets 480 of 960 particles", "loading.strain")
-        self.assertEqual(self.warnings(APART, "loading.strain=45 %"), [])
-        self.assert_only(self.warnings(APART, "loading.piston=left"), "never meets 480 of 960")
+        early, unmet = self.warnings(APART)
+        self.assertIn("never meets 480 of 960 particles", unmet)
+        self.assertIn("loading.strain", unmet)
+        self.assert_only(self.warnings(APART, "loading.strain=45 %"), early)
+        self.assertIn("never meets 480 of 960", self.warnings(APART, "loading.piston=left")[1])
         self.assertEqual(self.warnings(APART, "loading.piston=top"), [])
+
+    def test_gaps_that_close_early(self):
+        # One gap, and a cell of 20.
+        self.assert_only(self.warnings(APART, "loading.strain=45 %"), "1.0 of them",
+                         "5.0 % of strain", "mpm_study --error-bar", "grid.cells")
+        finer = ["loading.strain=45 %", "grid.cells=[100, 20]"]
+        self.assertEqual(self.warnings(APART, *finer), [])
+        self.assert_only(self.warnings(APART, "loading.strain=45 %", "grid.cells=[99, 20]"),
+                         "1.0 % of strain")
+        # Nothing closes up to here.
+        self.assertNotIn("closes gaps", self.warnings(APART, "loading.strain=9 %")[0])
 
     def test_unconnected_pieces(self):
         rows = [[255 if 10 <= i < 22 else 0 for i in range(40)] for _ in range(40)]
@@ -152,9 +165,11 @@ class Warnings(ProgramTest):
                         "grid: {cells: [20, 20]}\nsteps: 2\noutput: {snapshots: 0}\n"
                         "loading: {piston: right, speed: 1 m/s}\n")
         # 36 of 12 * 40 + 36 locations.
-        self.assert_only(self.warnings_of(file), "7 % of the wall (36 of 516 particles)",
-                         "specimen.remove_unconnected: true")
-        self.assertEqual(self.warnings_of(file, "specimen.remove_unconnected=true"), [])
+        pieces, early = self.warnings_of(file)
+        self.assertIn("7 % of the wall (36 of 516 particles)", pieces)
+        self.assertIn("specimen.remove_unconnected: true", pieces)
+        self.assertIn("closes gaps", early)
+        self.assert_only(self.warnings_of(file, "specimen.remove_unconnected=true"), "closes gaps")
 
 
 if __name__ == "__main__":
