@@ -69,5 +69,35 @@ TEST_P(FBar, GradientsHaveTheMeanDivergenceAroundTheirNodes)
   expect_averages<3>(parameters());
 }
 
+/// What the stress sees is no motion of the particle's corners.
+template <int Dim>
+void expect_domains_to_move_with_their_own_gradients()
+{
+  Cloud<Dim> cloud({"cpdi", "flip"}, true, true);
+  auto& fields = cloud.grid.fields;
+  cloud.transfer->prime(cloud.body, cloud.grid.topology, fields, false);
+  cloud.set_random_velocities();
+  const std::vector<Matrix<Dim>> own = own_gradients(cloud);
+  fields.reset_remap(cloud.grid.topology.runs());
+  cloud.transfer->divergence(cloud.body, cloud.grid.topology, fields);
+  fields.divergence_from_remap(cloud.grid.topology.runs());
+  cloud.transfer->musl_stress(cloud.body, cloud.grid.topology, fields, dt, cloud.wide_bounds());
+  const ColumnGroup& motion = cloud.body.particles.motion();
+  const int domain = motion.find("domain");
+  for (std::size_t p = 0; p < own.size(); ++p) {
+    const Matrix<Dim> before = cloud.particles[p].domain;
+    const Matrix<Dim> expected = before + dt * own[p] * before;
+    for (int k = 0; k < Dim * Dim; ++k)
+      ASSERT_NEAR(motion(domain + k, LocalIndex(p)), expected(k % Dim, k / Dim), 100 * rounding)
+          << "particle " << p << ", column " << k;
+  }
+}
+
+TEST(FBarBesideDomains, LeavesTheirMotionAlone)
+{
+  expect_domains_to_move_with_their_own_gradients<2>();
+  expect_domains_to_move_with_their_own_gradients<3>();
+}
+
 }  // namespace
 }  // namespace mpm
