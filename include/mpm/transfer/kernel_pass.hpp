@@ -190,9 +190,8 @@ class KernelPass {
         u[d] = gathered[d];
         v[d] = Scheme::increments ? v[d] + gathered[Dim + d] : gathered[d];
       }
-      if constexpr (Scheme::increments)
-        if (pic_share_ > 0) [[unlikely]]
-          for (int d = 0; d < Dim; ++d) v[d] += pic_share_ * (u[d] - v[d]);
+      if constexpr (Scheme::blends)
+        for (int d = 0; d < Dim; ++d) v[d] += pic_share_ * (u[d] - v[d]);
       store_all(v, motion, Columns::velocity);
       if constexpr (Scheme::affine) store_all(affine, motion, Columns::affine);
       if constexpr (!Content.move) {

@@ -44,6 +44,16 @@ struct SchemeRow {
   bool refines_before_forces = false;
 };
 
+/// The kernels know of a scheme no more than this, and are compiled once for those that agree in
+/// it. `blends`: with a share of the grid's velocity in what takes increments.
+template <bool Increments, bool Affine, bool ShapeGradient, bool Blends>
+struct SchemeKernels {
+  static constexpr bool increments = Increments, affine = Affine, shape_gradient = ShapeGradient,
+                        blends = Blends;
+};
+template <class Scheme, bool Blends = false>
+using Kernels = SchemeKernels<Scheme::increments, Scheme::affine, Scheme::shape_gradient, Blends>;
+
 /// The motion columns that every particle has, first of all.
 template <int Dim>
 struct LeadingColumns {

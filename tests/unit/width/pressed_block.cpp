@@ -116,7 +116,7 @@ void press(const char* name, const Transfer<2>& transfer, std::unique_ptr<Law<2>
 template <class Shape>
 void press_with()
 {
-  const KernelTransfer<2, Shape, Flip> transfer(TransferOptions{0.5});
+  const KernelTransfer<2, Shape, Kernels<Flip>> transfer(TransferOptions{0.5});
   const std::string name(Shape::row.keyword);
   press((name + "-hencky").c_str(), transfer,
         make_hencky(PlaneAssumption::strain, wall_material, density, yield));
