@@ -16,7 +16,7 @@ import ladders
 import measures
 
 TABLE = json.loads(Path(__file__).with_name("table.json").read_text())
-FMPM_ORDER = 4
+REFINEMENT_ORDER = 4
 
 
 def whole_case(case):
@@ -38,7 +38,7 @@ def all_settings(case, method, level):
     settings = [*ladders.settings_of(case, level), f"numerics.shape_function={shape}",
                 f"numerics.scheme={scheme}"]
     if scheme == "fmpm":
-        settings.append(f"numerics.fmpm_order={FMPM_ORDER}")
+        settings.append(f"numerics.refinement_order={REFINEMENT_ORDER}")
     return settings
 
 
