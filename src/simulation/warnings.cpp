@@ -108,10 +108,9 @@ void look_at_contact(const scene::Scene& scene, const micrograph::Specimen<Dim>&
   const double early = micrograph::early_contact(specimen, axis, share);
   if (early <= early_strain) return;
   warnings.push_back(fmt::format(
-      "contact closes gaps about a cell too early: {:.1f} of them on the piston's way are {:.1f} % "
-      "of "
-      "strain once all are closed. Half the cell, half of that: refine grid.cells, or let "
-      "mpm_study --error-bar estimate the error.",
+      "contact closes gaps about a cell too early: {:.1f} of them on the piston's way are "
+      "{:.1f} % of strain once all are closed. Half the cell, half of that: refine grid.cells, or "
+      "let mpm_study --error-bar estimate the error.",
       early * specimen.size()[axis] / layout.geometry.spacing[axis], 100 * early));
 }
 

@@ -32,9 +32,8 @@ class BoundaryCondition {
                  double after)
   {
     double* u = fields.updated_of(node);
-    const double as_increment = before + u[Dim + component];
-    const double free_velocity =
-        as_increment + book_.velocity_share * (u[component] - as_increment);
+    const double free_velocity = (1 - book_.velocity_share) * (before + u[Dim + component]) +
+                                 book_.velocity_share * u[component];
     u[component] = after;
     u[Dim + component] = after - before;
     if (!owned) return;

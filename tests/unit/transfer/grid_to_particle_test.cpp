@@ -60,9 +60,10 @@ TEST_P(GridToParticle, OfARandomFieldEqualsTheDoubleLoop)
   compare_with_the_double_loop<3>(parameters());
 }
 
-TEST(FlipScheme, AddsTheIncrementAndForgetsTheGridVelocity)
+/// FLIP's velocity and, by a share, the grid's.
+void expect_blend(const char* shape, double pic_share, double tolerance)
 {
-  Cloud<2> cloud({"quadratic", "flip"});
+  Cloud<2> cloud({shape, "flip"}, false, false, pic_share);
   cloud.set_velocities([](NaiveNode<2>& n) {
     n.velocity = {100, 200};
     n.increment = {0.25, -0.5};
@@ -70,25 +71,19 @@ TEST(FlipScheme, AddsTheIncrementAndForgetsTheGridVelocity)
   cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, 0, cloud.wide_bounds());
   for (int p = 0; p < cloud.count; ++p) {
     const Vec<2> v(cloud.body.particles.motion()(2, p), cloud.body.particles.motion()(3, p));
-    EXPECT_LT((v - cloud.particles[p].v - Vec<2>(0.25, -0.5)).norm(), rounding);
+    const Vec<2> flip = cloud.particles[p].v + Vec<2>(0.25, -0.5);
+    EXPECT_LT((v - (1 - pic_share) * flip - pic_share * Vec<2>(100, 200)).norm(), tolerance);
   }
+}
+
+TEST(FlipScheme, AddsTheIncrementAndForgetsTheGridVelocity)
+{
+  expect_blend("quadratic", 0, rounding);
 }
 
 TEST(FlipScheme, BlendsWithTheGridVelocity)
 {
-  for (const char* shape : {"quadratic", "cpdi"}) {
-    Cloud<2> cloud({shape, "flip"}, false, false, 0.25);
-    cloud.set_velocities([](NaiveNode<2>& n) {
-      n.velocity = {100, 200};
-      n.increment = {0.25, -0.5};
-    });
-    cloud.transfer->usl(cloud.body, cloud.grid.topology, cloud.grid.fields, 0, cloud.wide_bounds());
-    for (int p = 0; p < cloud.count; ++p) {
-      const Vec<2> v(cloud.body.particles.motion()(2, p), cloud.body.particles.motion()(3, p));
-      const Vec<2> flip = cloud.particles[p].v + Vec<2>(0.25, -0.5);
-      EXPECT_LT((v - 0.75 * flip - 0.25 * Vec<2>(100, 200)).norm(), 10 * rounding);
-    }
-  }
+  for (const char* shape : {"quadratic", "cpdi"}) expect_blend(shape, 0.25, 10 * rounding);
 }
 
 TEST(PicScheme, TakesTheGridVelocityAndForgetsItsOwn)
