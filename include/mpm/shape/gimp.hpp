@@ -24,7 +24,7 @@ struct Gimp {
                                 .has_domain = true};
   static Gimp make(double domain) { return {0.5 * domain}; }
 
-  static constexpr bool ends_at_walls = false;
+  static constexpr bool ends_at_walls = true;
   static constexpr int support = 3;
   double half_size;  ///< of a particle domain, in cells
 
