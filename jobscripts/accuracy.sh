@@ -1,6 +1,6 @@
 #!/bin/sh
 # Measures error against run time again and writes docs/accuracy.md with its figures. Needs a build
-# (jobscripts/build.sh) and half an hour and more on one core, and goes on where it was interrupted. With
+# (jobscripts/build.sh) and an hour and a half on one core, and goes on where it was interrupted. With
 # --quick: the coarsest levels only, a few minutes, nothing is written.
 set -eu
 case ${1-} in -h | --help) sed -n '2,4s/^# \{0,1\}//p' "$0"; exit 0 ;; esac

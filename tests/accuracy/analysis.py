@@ -10,6 +10,7 @@ import convergence
 import pareto
 import results
 from benchmarks import TABLE
+from loblolly import VARIANTS
 
 read = functools.cache(runs.read_rows)
 WIDTH = {"loblolly": 0.832e-3, "honeycomb": 0.866e-3}  # of the specimen along the piston's way, m
@@ -32,8 +33,11 @@ def settled(row):
 
 
 def front(case, cost="seconds"):
-    """Rows that no other row of the scene beats in cost and settled error both, cheapest first."""
-    return pareto.front(case_rows(case), lambda row: row[cost], settled)
+    """Rows that no other row of the scene beats in cost and settled error both, cheapest first.
+
+    Where the error is as large as the exact answer, nothing was found at any cost."""
+    return pareto.front([row for row in case_rows(case) if settled(row) < 1],
+                        lambda row: row[cost], settled)
 
 
 def on_front(case, method):
@@ -47,7 +51,18 @@ def cases():
 
 
 def methods():
+    """Those of the catalogue; variants() are what one of them becomes by another key."""
     return TABLE["methods"]
+
+
+def variants():
+    return TABLE["variants"]
+
+
+def ladder_methods(model):
+    """Methods of a model whose whole ladder was run."""
+    return [method for method in dict.fromkeys(row["method"] for row in read(f"{model}.csv"))
+            if method not in VARIANTS]
 
 
 def spacing(model, row):
@@ -97,7 +112,7 @@ def value(model, row, figure):
 def for_orders(rows):
     """Levels some one and a half times apart: of nearer ones the differences are those of sampling."""
     cells = {row["cells"] for row in rows}
-    for wanted in ((100, 150, 240, 360), (75, 125, 180, 300)):
+    for wanted in ((100, 150, 240, 360, 600), (100, 150, 240, 360), (75, 125, 180, 300)):
         if cells.issuperset(wanted):
             return [row for row in rows if row["cells"] in wanted]
     return rows

@@ -16,7 +16,7 @@ import ladders
 import measures
 
 TABLE = json.loads(Path(__file__).with_name("table.json").read_text())
-REFINEMENT_ORDER = 4
+METHODS = TABLE["methods"] + TABLE["variants"]
 
 
 def whole_case(case):
@@ -34,12 +34,7 @@ def error_of(case, level, folder):
 
 
 def all_settings(case, method, level):
-    shape, scheme = method.split()
-    settings = [*ladders.settings_of(case, level), f"numerics.shape_function={shape}",
-                f"numerics.scheme={scheme}"]
-    if scheme == "fmpm":
-        settings.append(f"numerics.refinement_order={REFINEMENT_ORDER}")
-    return settings
+    return ladders.settings_of(case, level) + runs.method_settings(method)
 
 
 def row_of(mpm_par, case, method, level, work):
@@ -66,7 +61,7 @@ def main():
         if given.case and case["name"] not in given.case:
             continue
         for level in case["levels"][:case["quick"] if given.quick else None]:
-            for method in TABLE["methods"]:
+            for method in METHODS:
                 if given.kept and not runs.kept_cost(
                         given.mpm_par, ladders.SCENES / case["scene"],
                         all_settings(case, method, level), given.work):

@@ -13,21 +13,28 @@ MARKERS = {"flip": "o", "pic": "v", "apic": "s", "fmpm": "^"}
 
 
 def style(method):
-    shape, scheme = method.split()
-    return {"color": SHAPE_COLOURS[shape], "marker": MARKERS[scheme], "markersize": 4,
-            "linewidth": 0.8, "label": f"{shape}, {scheme}"}
+    """Colour and marker of a method; of a variant the next of a list, and dashed."""
+    words = method.split()
+    if method in analysis.variants():
+        at = analysis.variants().index(method)
+        look = {"color": pyplot.cm.tab20(at % 20), "marker": "Dp*hX<>"[at % 7], "linestyle": "--"}
+    else:
+        look = {"color": SHAPE_COLOURS[words[0]], "marker": MARKERS[words[1]]}
+    return look | {"markersize": 4, "linewidth": 0.8, "label": ", ".join(words)}
 
 
-def save(figure, name):
-    figure.tight_layout()
+def save(figure, name, top=1):
+    """`top`: of the figure, below which the axes stay."""
+    figure.tight_layout(rect=(0, 0, 1, top))
     figure.savefig(runs.RESULTS / name, dpi=90)
     pyplot.close(figure)
 
 
-def benchmarks():
+def benchmarks(methods, name):
+    """Error over run time, with the front of all methods."""
     figure, axes = pyplot.subplots(3, 3, figsize=(11, 10))
     for axis, case in zip(axes.flat, analysis.cases()):
-        for method in analysis.methods():
+        for method in methods:
             rows = [row for row in analysis.case_rows(case["name"]) if row["method"] == method]
             axis.loglog([row["seconds"] for row in rows], [row["error"] for row in rows],
                         **style(method))
@@ -40,8 +47,8 @@ def benchmarks():
         axis.set_xlabel("seconds")
     for axis in axes[:, 0]:
         axis.set_ylabel("error")
-    axes[0, 0].legend(fontsize=6)
-    save(figure, "benchmarks.png")
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), fontsize=7, ncol=4, loc="upper center")
+    save(figure, name, top=0.9)
 
 
 def loblolly_curves():
@@ -66,7 +73,7 @@ def loblolly_levels():
              ("closing_strain", 0.01, "closing strain [%]"),
              ("densification_strain", 0.01, "onset of densification [%]"))
     for axis, (name, unit, words) in zip(axes.flat, shown):
-        for method in loblolly_methods():
+        for method in analysis.ladder_methods("loblolly"):
             for geometry, line in (("picture", "-"), ("fixed", "--")):
                 rows = analysis.ladder("loblolly", method, geometry)
                 known = [(1e6 * analysis.spacing("loblolly", row),
@@ -79,14 +86,10 @@ def loblolly_levels():
     save(figure, "loblolly_levels.png")
 
 
-def loblolly_methods():
-    return list(dict.fromkeys(row["method"] for row in analysis.read("loblolly.csv")))
-
-
 def early_contact():
     figure, axes = pyplot.subplots(1, 2, figsize=(10, 4))
     for axis, model, geometry in zip(axes, ("honeycomb", "loblolly"), (None, "picture")):
-        for method in dict.fromkeys(row["method"] for row in analysis.read(f"{model}.csv")):
+        for method in analysis.ladder_methods(model):
             rows = analysis.ladder(model, method, geometry)
             known = [(1e6 * analysis.spacing(model, row), analysis.closing_strain(model, row))
                      for row in rows]
@@ -106,7 +109,8 @@ def early_contact():
 
 
 if __name__ == "__main__":
-    benchmarks()
+    benchmarks(analysis.methods(), "benchmarks.png")
+    benchmarks(["gimp flip", "quadratic flip", *analysis.variants()], "variants.png")
     loblolly_curves()
     loblolly_levels()
     early_contact()

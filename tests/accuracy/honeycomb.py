@@ -34,9 +34,7 @@ def main():
         plan = [("gimp flip", cells) for cells in LEVELS[:3]]
     table = runs.CurveTable(STRAINS, figures)
     for method, cells in plan:
-        shape, scheme = method.split()
-        settings = ["output.snapshots=0", f"grid.cells={cells}",
-                    f"numerics.shape_function={shape}", f"numerics.scheme={scheme}"]
+        settings = ["output.snapshots=0", f"grid.cells={cells}", *runs.method_settings(method)]
         table.add({"method": method, "cells": cells[0]},
                   runs.run(given.mpm_par, SCENE, settings, given.work))
     if given.write and not given.quick:

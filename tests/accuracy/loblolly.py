@@ -21,11 +21,15 @@ import results
 SCENE = runs.PROJECT / "inputs" / "wood" / "loblolly_radial.yaml"
 # 150, 200, 250, 300 and 360 particles across are the paper's.
 PICTURE = [[75, 49], [100, 65], [125, 81], [150, 97], [180, 117], [240, 156],
-           [300, 195], [360, 234]]
+           [300, 195], [360, 234], [480, 312], [600, 390]]
 BASE = [75, 49]
 FIXED = [1, 2, 3, 4]
-LARGEST = {"gimp flip": 360, "quadratic flip": 300, "cubic flip": 225}  # cells across
+LARGEST = {"gimp flip": 600, "quadratic flip": 300, "cubic flip": 225}  # cells across
 METHODS = list(LARGEST)
+# On the picture only.
+VARIANTS = {method: 150 for method in (
+    "gimp apic", "gimp xpic", "cpdi flip", "gimp flip domain=0.5", "gimp flip particles_per_cell=3",
+    "gimp flip update_order=musl_displacement")}
 SHARED = ["loading.strain=40 %"]
 STRAINS = numpy.linspace(0, 0.4, 101)
 PLATEAU = (0.05, 0.15)
@@ -69,9 +73,7 @@ def base_picture(mpm_par, work):
 
 
 def settings_of(geometry, method, cells, picture):
-    shape, scheme = method.split()
-    found = [*SHARED, "output.snapshots=0", f"grid.cells={cells}",
-             f"numerics.shape_function={shape}", f"numerics.scheme={scheme}"]
+    found = [*SHARED, "output.snapshots=0", f"grid.cells={cells}", *runs.method_settings(method)]
     if geometry == "fixed":
         found += [f"specimen.micrograph={picture}", "specimen.threshold=128",
                   "specimen.sampling=threshold"]
@@ -100,8 +102,10 @@ def figures(folder, strains):
 def planned(methods, largest):
     """(geometry, method, cells), the cheapest first."""
     found = [("picture", method, cells) for method in methods for cells in PICTURE]
-    found += [("fixed", method, [k * n for n in BASE]) for method in methods for k in FIXED]
-    found = [one for one in found if one[2][0] <= min(largest, LARGEST.get(one[1], largest))]
+    found += [("fixed", method, [k * n for n in BASE])
+              for method in methods if method not in VARIANTS for k in FIXED]
+    reach = LARGEST | VARIANTS
+    found = [one for one in found if one[2][0] <= min(largest, reach.get(one[1], largest))]
     return sorted(found, key=lambda one: one[2][0])
 
 
@@ -110,7 +114,7 @@ def main():
                                         formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("mpm_par", type=Path)
     arguments.add_argument("--quick", action="store_true")
-    arguments.add_argument("--method", nargs="+", default=METHODS)
+    arguments.add_argument("--method", nargs="+", default=[*METHODS, *VARIANTS])
     arguments.add_argument("--largest", type=int, default=PICTURE[-1][0],
                            help="cells across")
     arguments.add_argument("--work", type=Path, default=runs.PROJECT / "results" / "accuracy")

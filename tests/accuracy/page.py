@@ -34,9 +34,10 @@ def values():
         "parts": gimp_parts, "parts_cells": f"{cells:.0f}",
         "users_gimp": page_loblolly.users("gimp flip"),
         "users_quadratic": page_loblolly.users("quadratic flip"),
+        "variants": page_loblolly.variants(150),
         "paper_errors": page_loblolly.errors_at("gimp flip", 180),
         "plateau_limits": page_loblolly.plateau_limits(),
-        "foretold": page_loblolly.foretold("gimp flip", (150, 240), 360),
+        "foretold": page_loblolly.foretold("gimp flip", (150, 300), 600),
         "three_users": page_loblolly.three_users(),
         "gaps": page_contact.gaps(), "honeycomb": page_contact.honeycomb(),
         "pairs": page_contact.loblolly_pairs(),
@@ -64,7 +65,7 @@ def written():
         if "{" + key + "}" not in page:
             raise RuntimeError(f"{TEXT.name} does not use {key}")
         page = page.replace("{" + key + "}", value.rstrip("\n"))
-    page = re.sub(r"{(error|seconds) (\w+), (\w+ \w+), (\d+)}", single, page)
+    page = re.sub(r"{(error|seconds) (\w+), ([^,{}]+), (\d+)}", single, page)
     if "{" in page:
         raise RuntimeError(f"{TEXT.name}: nothing is known for {page[page.index('{'):][:30]}")
     return wrapped(page)

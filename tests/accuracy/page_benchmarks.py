@@ -18,10 +18,14 @@ def comma(method):
     return method.replace(" ", ", ")
 
 
+def all_methods():
+    return analysis.methods() + analysis.variants()
+
+
 def table_of_fronts():
     heads = ["method"] + [case["name"].replace("_", " ") for case in analysis.cases()]
     lines = []
-    for method in analysis.methods():
+    for method in all_methods():
         cells = [comma(method)]
         for case in analysis.cases():
             rows = [row for row in analysis.case_rows(case["name"]) if row["method"] == method]
@@ -58,6 +62,6 @@ def broken():
 def front_count():
     """Number of scenes on whose front of run time each method has a run."""
     counts = {method: sum(bool(analysis.on_front(case["name"], method)[0])
-                          for case in analysis.cases()) for method in analysis.methods()}
+                          for case in analysis.cases()) for method in all_methods()}
     ordered = sorted(counts.items(), key=lambda pair: -pair[1])
     return ", ".join(f"{comma(method)} {count}" for method, count in ordered)

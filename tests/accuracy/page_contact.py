@@ -9,10 +9,6 @@ def comma(method):
     return method.replace(" ", ", ")
 
 
-def methods_of(model):
-    return list(dict.fromkeys(row["method"] for row in analysis.read(f"{model}.csv")))
-
-
 def gaps():
     return ", ".join(f"{analysis.gap_left(method):.2f} ({comma(method)})" for method in FLIP)
 
@@ -26,7 +22,7 @@ def cells_early(model, method, geometry=None):
 
 
 def honeycomb():
-    methods = methods_of("honeycomb")
+    methods = analysis.ladder_methods("honeycomb")
     heads = ["cells across (per wall)", *map(comma, methods)]
     ladders = {method: {row["cells"]: row for row in analysis.ladder("honeycomb", method)}
                for method in methods}
@@ -55,7 +51,7 @@ def loblolly_pairs():
     """Change of the closing strain between neighbouring levels, measured, and due to early contact."""
     heads = ["method, geometry", "from cells", "to cells", "measured", "g dh n/L", "share"]
     lines = []
-    for method in methods_of("loblolly"):
+    for method in analysis.ladder_methods("loblolly"):
         for geometry in ("fixed", "picture"):
             rows = analysis.ladder("loblolly", method, geometry)
             if geometry == "picture":  # levels far apart, for a change that is worth its name

@@ -17,6 +17,14 @@ sys.path += [str(PROJECT / "src" / "study"), str(PROJECT / "tests" / "convergenc
 ROUNDS, SHORT = 3, 1.0  # runs of less than SHORT seconds are timed ROUNDS times
 
 
+def method_settings(method):
+    """For --set, of "SHAPE SCHEME [KEY=VALUE ...]", the keys those of numerics or particles_per_cell."""
+    shape, scheme, *others = method.split()
+    words = [f"numerics.shape_function={shape}", f"numerics.scheme={scheme}"]
+    return words + [("grid." if word.startswith("particles_per_cell") else "numerics.") + word
+                    for word in others]
+
+
 def _timed(command, log):
     """Exit status and seconds of the processor of one program."""
     with open(log, "w") as file:

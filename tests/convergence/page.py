@@ -29,18 +29,17 @@ What the tables say:
 - linear shape functions converge until particles cross cells, and then get worse; beyond full density
   they lose stress that the solid alone would carry;
 - gimp and quadratic converge with second order until the quadrature of fixed domains ends it; cubic
-  goes on to errors four times smaller, and cpdi, whose domains deform, to seven times smaller ones where
+  goes on to errors three times smaller, and cpdi, whose domains deform, to five times smaller ones where
   strains are large along the grid's lines; it alone follows a stretch of three;
-- splines are cut off at walls at rest and converge with second order there too;
+- gimp and splines end at walls at rest and converge with second order there too; beside a side that
+  moves they are whole, and what lies there rings;
 - pic loses energy with every step and converges with first order;
 - apic and tpic are the most accurate for smooth motion; flip keeps the energy, but not the angular
   momentum, and does not always come to rest under a load that lasts (cantilever);
-- a mirror side is none to functions that reach through it: the layer next to a side is strained too
-  little with gimp (Taylor bars), and rings beside a side that moves;
 - moduli of honeycombs are within 1.5 % of those of the plane solid at 32 cells per wall, and within 9 %
   at four; plastic hinges are slower, 2 to 5 % at 32 cells per wall and 12 to 28 % at four;
-- lumens close 0.7 to 2 cells too early, whatever the grid: beyond full density the stress is 28 % too
-  high with walls of four cells, and 1.4 % with sixteen (gimp).
+- lumens close 0.7 to 2 cells too early, whatever the grid: beyond full density the stress is 30 % too
+  high with walls of four cells, and 1.7 % with sixteen (gimp).
 """
 
 
