@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace mpm {
 
 std::optional<double> stable_cfl_of(const scene::Numerics& numerics)
@@ -30,6 +32,18 @@ ReactionBook reaction_book(const scene::Numerics& numerics)
 {
   const double share = numerics.scheme->book.velocity_share;
   return {share + numerics.pic_share * (1 - share)};
+}
+
+std::vector<std::string> method_words(const scene::Numerics& numerics, int dimensions)
+{
+  std::string shape(numerics.shape_function->words), scheme(numerics.scheme->words);
+  if (numerics.domain != 1) shape += fmt::format(" with domains of {:.4g}", numerics.domain);
+  if (numerics.scheme->refines) scheme += fmt::format("({})", numerics.refinement_order);
+  if (numerics.pic_share > 0) scheme += fmt::format(" with {:.4g} % PIC", 100 * numerics.pic_share);
+  const char* space = dimensions == 3                          ? "in space"
+                      : numerics.plane == scene::Plane::strain ? "plane strain"
+                                                               : "plane stress";
+  return {shape, scheme, std::string(numerics.update_order->words), space};
 }
 
 template <int Dim>

@@ -158,12 +158,8 @@ Plan make_plan(const Preparation<Dim>& preparation)
   const scene::Scene& scene = preparation.scene;
   const scene::Numerics& numerics = scene.numerics;
   const auto transfer = make_transfer<Dim>(numerics, preparation.layout.per_cell);
-  const char* space = Dim == 3                                 ? "in space"
-                      : numerics.plane == scene::Plane::strain ? "plane strain"
-                                                               : "plane stress";
   Plan plan;
-  plan.method = {std::string(numerics.shape_function->words), std::string(numerics.scheme->words),
-                 std::string(numerics.update_order->words), space};
+  plan.method = method_words(numerics, Dim);
   plan.bodies = bodies_of(preparation, *transfer);
   plan.nodes = nodes_of(preparation, transfer->support());
   plan.passes = outline_step<Dim>(numerics.update_order, extras_of(numerics),

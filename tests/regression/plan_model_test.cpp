@@ -56,6 +56,25 @@ TEST(Plan, NamesAsManyConditionsAsTheModelHas)
   expect_conditions("free_motion: {end_time: 1 ms, sides: [rigid, free, symmetric, free]}\n", 2);
 }
 
+TEST(Plan, NamesTheMethodWithWhatTheSceneMadeOfIt)
+{
+  using testing::ElementsAre;
+  const auto method = [](const std::string& numerics) {
+    return method_words(
+        scene_of(block("grid: {cells: [10, 5]}\nloading: {piston: right, speed: 1 m/s, "
+                       "strain: 10 %}\nnumerics: " +
+                       numerics + "\n"))
+            .numerics,
+        2);
+  };
+  EXPECT_THAT(method("{}"), ElementsAre("uniform GIMP", "FLIP", "MUSL", "plane strain"));
+  EXPECT_THAT(
+      method("{pic_share: 0.01, domain: 0.5}"),
+      ElementsAre("uniform GIMP with domains of 0.5", "FLIP with 1 % PIC", "MUSL", "plane strain"));
+  EXPECT_THAT(method("{shape_function: quadratic, scheme: xpic, refinement_order: 3}"),
+              ElementsAre("quadratic B-spline", "XPIC(3)", "MUSL", "plane strain"));
+}
+
 TEST(EmptyRegions, HaveNodesThatAStepNeitherReadsNorWrites)
 {
   Started started(

@@ -16,6 +16,8 @@ double default_cfl(const scene::Numerics& numerics);
 StepExtras extras_of(const scene::Numerics& numerics);
 /// What the reactions of walls are measured from.
 ReactionBook reaction_book(const scene::Numerics& numerics);
+/// As a reader of the field writes them: shape function, scheme, update order, and the space.
+std::vector<std::string> method_words(const scene::Numerics& numerics, int dimensions);
 template <int Dim>
 TimeStep time_step_of(const Layout<Dim>& layout);
 /// At least, or where the scene ends the run before: compression makes steps shorter on the way.
