@@ -19,7 +19,7 @@ template <int Width, int Count>
 }
 
 /// f(lane) for one lane after the other. Where stencils have few nodes without a loop: what is
-/// gathered then stays in registers until it is turned into columns (a step in the plane costs 4 to
+/// gathered then stays in registers until it is turned into columns (a step in the plane costs 1 to
 /// 6 % less), where they have many the code would be too long (one of GIMP in space 4 % more).
 template <int Dim, class Shape, class Function>
 [[gnu::always_inline]] inline void for_each_lane(const Function& f)
