@@ -1,0 +1,45 @@
+#pragma once
+/// Cells of one rank that are locations of the lattice, and the nodes at their corners.
+
+#include <mpm/core/types.hpp>
+#include <mpm/parallel/shared_nodes.hpp>
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace mpm {
+
+/// Cells that have an edge (in space a face) in common share its nodes, and so do those that meet
+/// in a corner alone: there a wall is a hinge. Where an axis is periodic, a rank that has cells at
+/// both ends of it holds the nodes between them twice, as images.
+template <int Dim>
+struct LocationMesh {
+  static constexpr int corners = 1 << Dim;
+
+  /// Bit d of a corner: upper along axis d.
+  static IndexVec<Dim> offset_of(int corner)
+  {
+    IndexVec<Dim> offset;
+    for (int d = 0; d < Dim; ++d) offset[d] = corner >> d & 1;
+    return offset;
+  }
+
+  /// Of each cell, in the order in which they were given: its nodes.
+  std::vector<std::array<LocalIndex, corners>> cells;
+  std::vector<IndexVec<Dim>> nodes;  ///< corners of the lattice, x fastest
+  std::vector<char> owned;           ///< by one rank each; images by nobody
+  SharedNodes shared;
+};
+
+/// Of one rank. `cells`: its locations; `rank_of(location)`: who has a location of the lattice, or
+/// -1 where it is empty or beyond, asked for those and the ones around them; `period`: locations
+/// after which an axis begins again, or 0. Every rank that has cells at a node finds the same. Not
+/// collective.
+template <int Dim>
+LocationMesh<Dim> make_location_mesh(std::span<const IndexVec<Dim>> cells, int rank,
+                                     const std::function<int(const IndexVec<Dim>&)>& rank_of,
+                                     const IndexVec<Dim>& period);
+
+}  // namespace mpm
