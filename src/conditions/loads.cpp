@@ -32,47 +32,54 @@ void Loads<Dim>::scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfe
 {
   if (!on_particles_) return;
   transfer.load_force(part, grid, fields, [&](LocalIndex block, Lanes(&force)[Dim]) {
-    for (const auto& load : loads_) load->add_to_particles(part.body, block, time, force);
+    add_to_particles(part.body, block, time, force);
   });
 }
 
 template <int Dim>
-void Loads<Dim>::apply(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time,
+void Loads<Dim>::add_to_particles(const Body<Dim>& body, LocalIndex block, double time,
+                                  Lanes (&force)[Dim]) const
+{
+  for (const auto& load : loads_) load->add_to_particles(body, block, time, force);
+}
+
+template <int Dim>
+void Loads<Dim>::apply(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields, double time,
                        double dt) const
 {
   if (loads_.empty()) return;
-  for (const auto& load : loads_) load->add_to_nodes(grid, grid.runs(), fields, time, dt);
-  fields.add_load_force(grid.runs());
+  for (const auto& load : loads_) load->add_to_nodes(nodes, runs, fields, time, dt);
+  fields.add_load_force(runs);
 }
 
 /// visit(axis, impulse of the loads, the node's updated velocities) for all owned nodes.
 template <int Dim>
 template <class Visit>
-void Loads<Dim>::for_each_impulse(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt,
-                                  Visit visit)
+void Loads<Dim>::for_each_impulse(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields,
+                                  double dt, Visit visit)
 {
   if (loads_.empty()) return;
-  for (const NodeRun<Dim>& run : grid.runs())
+  for (const NodeRun<Dim>& run : runs)
     for (LocalIndex node = run.first; node < run.first + run.length; ++node) {
-      if (!grid.is_owned(node) || !fields.is_active(node)) continue;
+      if (!nodes.is_owned(node) || !fields.is_active(node)) continue;
       for (int d = 0; d < Dim; ++d)
         visit(d, dt * fields.load_force[std::size_t(node) * Dim + d], fields.updated_of(node));
     }
 }
 
 template <int Dim>
-void Loads<Dim>::book(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt)
+void Loads<Dim>::book(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields, double dt)
 {
-  for_each_impulse(grid, fields, dt, [&](int d, double impulse, const double* u) {
+  for_each_impulse(nodes, runs, fields, dt, [&](int d, double impulse, const double* u) {
     reaction_.impulse[d] += impulse;
     reaction_.work += impulse * (u[d] - 0.5 * u[Dim + d]);
   });
 }
 
 template <int Dim>
-void Loads<Dim>::book_residual(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt)
+void Loads<Dim>::book_residual(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields, double dt)
 {
-  for_each_impulse(grid, fields, dt, [&](int d, double impulse, const double* u) {
+  for_each_impulse(nodes, runs, fields, dt, [&](int d, double impulse, const double* u) {
     reaction_.work += impulse * u[Dim + d];
   });
 }

@@ -1,5 +1,6 @@
 #include <mpm/conditions/rigid_wall.hpp>
 
+#include <cmath>
 #include <limits>
 
 namespace mpm {
@@ -62,6 +63,36 @@ void RigidWall<Dim>::constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>
       else if (grip_ == WallGrip::stick)
         fields.set_gradient_velocity(node, d, 0);
   }
+}
+
+/// Nodes that stood at the face are held by a wall with a grip; all others meet it one-sidedly, and
+/// end the step at the face.
+template <int Dim>
+void RigidWall<Dim>::stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
+                          double dt)
+{
+  const int axis = placement_.axis;
+  if (!held_) {
+    held_.emplace();
+    const double tolerance = 1e-9 * nodes.spacing()[axis];
+    if (grip_ != WallGrip::contact)
+      for (LocalIndex node = 0; node < nodes.size(); ++node)
+        if (std::abs(nodes.rest(node, axis) - placement_.position) < tolerance)
+          held_->push_back(node);
+  }
+  const double face = position(time + dt), side = placement_.upper ? 1 : -1;
+  const double* at = nodes.along(axis);
+  const auto put_to_face = [&](LocalIndex node) {
+    const bool owned = nodes.is_owned(node);
+    for (int d = 0; d < Dim; ++d)
+      if (d == axis)
+        this->drive(fields, node, owned, d, (face - at[node]) / dt);
+      else if (grip_ == WallGrip::stick)
+        this->drive(fields, node, owned, d, 0);
+  };
+  for (const LocalIndex node : *held_) put_to_face(node);
+  for (LocalIndex node = 0; node < nodes.size(); ++node)
+    if (side * (at[node] + dt * fields.updated_of(node)[axis] - face) > 0) put_to_face(node);
 }
 
 template class RigidWall<2>;

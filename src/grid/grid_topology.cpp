@@ -25,13 +25,6 @@ LocalIndex index_from(double place, LocalIndex least, LocalIndex most)
 }  // namespace
 
 template <int Dim>
-GlobalIndex GridTopology<Dim>::new_listing()
-{
-  static GlobalIndex last = 0;
-  return ++last;
-}
-
-template <int Dim>
 GridTopology<Dim>::GridTopology(const GridGeometry<Dim>& geometry, const IndexBox<Dim>& local,
                                 std::vector<char> owned)
     : geometry_(geometry), local_(local), owned_(std::move(owned))
@@ -141,7 +134,7 @@ std::vector<LocalIndex> GridTopology<Dim>::end_activity(int support)
       runs_.push_back({row + i, end - i, index(row + i)});
       i = end;
     }
-  listing_ = new_listing();
+  listing_ = Nodes<Dim>::new_listing();
   return left;
 }
 

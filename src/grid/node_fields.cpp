@@ -30,7 +30,7 @@ NodeFields<Dim>::NodeFields(LocalIndex nodes, const Needs& needs, double mass_cu
   updated.assign(std::size_t(nodes) * record_width, 0.0);
   if (needs.remap) remapped_momentum.assign(std::size_t(nodes) * remap_width, 0.0);
   if (needs.load_force) load_force.assign(std::size_t(nodes) * Dim, 0.0);
-  gradient_velocity.assign(std::size_t(nodes) * velocity_width, 0.0);
+  if (needs.gradient) gradient_velocity.assign(std::size_t(nodes) * velocity_width, 0.0);
 }
 
 template <int Dim>
@@ -58,7 +58,7 @@ void NodeFields<Dim>::clear(std::span<const LocalIndex> nodes)
     zero(updated, node, 1, record_width);
     if (!remapped_momentum.empty()) zero(remapped_momentum, node, 1, remap_width);
     if (!load_force.empty()) zero(load_force, node, 1, Dim);
-    zero(gradient_velocity, node, 1, velocity_width);
+    if (!gradient_velocity.empty()) zero(gradient_velocity, node, 1, velocity_width);
   }
 }
 
@@ -82,6 +82,15 @@ void NodeFields<Dim>::update_velocity(Runs runs, double dt)
       u[d] = mf[d] * inverse_mass + increment;
       u[Dim + d] = increment;
     }
+  });
+}
+
+template <int Dim>
+void NodeFields<Dim>::carry_momentum(Runs runs)
+{
+  for_each_node(runs, [&](LocalIndex node) {
+    for (int d = 0; d < Dim; ++d)
+      momentum_force[std::size_t(node) * record_width + d] = mass_of(node) * updated_of(node)[d];
   });
 }
 

@@ -127,17 +127,31 @@ class Hencky final : public Law<2> {
   {
     for (int k = 0; k < blocks; ++k) {
       double* s = state + k * columns * lane_count;
-      // b_e = f b_e f^T
-      const auto [xx, yy, xy] = pushed_forward({at(s, be_xx), at(s, be_yy), at(s, be_xy)},
-                                               gradient + k * 4 * lane_count, dt);
-      store(xx, s + be_xx * lane_count);
-      store(yy, s + be_yy * lane_count);
-      store(xy, s + be_xy * lane_count);
-      Strain e = complete(s, logarithmic_strain(xx, yy, xy));
-      if constexpr (Plastic && plane_strain) return_radially(s, e);
-      if constexpr (Plastic && !plane_strain) return_in_plane_stress(s, e);
+      Strain e = trial_strain(s, gradient + k * 4 * lane_count, dt);
+      if constexpr (Plastic) return_to_yield(s, e);
       put_force_stress(s, e, force_stress + k * 3 * lane_count);
     }
+  }
+
+  Vec<2> bending_modulus() const override
+  {
+    return Vec<2>::Constant(elastic_.bending_modulus(Plane));
+  }
+  void update_bent(double* state, int blocks, const double* gradient, double dt,
+                   double* force_stress, double* bending) const override
+  {
+    if constexpr (!Plastic)
+      Law<2>::update_bent(state, blocks, gradient, dt, force_stress, bending);
+    else
+      for (int k = 0; k < blocks; ++k) {
+        double* s = state + k * columns * lane_count;
+        double* b = bending + k * 2 * lane_count;
+        Strain e = trial_strain(s, gradient + k * 4 * lane_count, dt);
+        BentFlow bent{load(b), load(b + lane_count)};
+        return_to_yield(s, e, bent);
+        store(bent.scale, b);
+        put_force_stress(s, e, force_stress + k * 3 * lane_count);
+      }
   }
 
   void force_stress(const double* state, int blocks, double* force_stress) const override
@@ -234,6 +248,17 @@ class Hencky final : public Law<2> {
     return complete(s, logarithmic_strain(at(s, be_xx), at(s, be_yy), at(s, be_xy)));
   }
 
+  /// b_e = f b_e f^T, and its strain.
+  Strain trial_strain(double* s, const double* gradient, double dt) const
+  {
+    const auto [xx, yy, xy] =
+        pushed_forward({at(s, be_xx), at(s, be_yy), at(s, be_xy)}, gradient, dt);
+    store(xx, s + be_xx * lane_count);
+    store(yy, s + be_yy * lane_count);
+    store(xy, s + be_xy * lane_count);
+    return complete(s, logarithmic_strain(xx, yy, xy));
+  }
+
   /// Plane stress: e_zz / (e1 + e2).
   double zz_over_sum() const { return -elastic_.poisson_ratio / (1 - elastic_.poisson_ratio); }
 
@@ -246,32 +271,72 @@ class Hencky final : public Law<2> {
     store(v0 * tau.xy, out + 2 * lane_count);
   }
 
-  /// Radial return of the deviator of the logarithmic strain; the trace stays.
+  template <class... Bent>
+  void return_to_yield(double* s, Strain& e, Bent&... bent) const
+  {
+    if constexpr (plane_strain)
+      return_radially(s, e, bent...);
+    else
+      return_in_plane_stress(s, e, bent...);
+  }
+
   void return_radially(double* s, Strain& e) const
   {
-    const Lanes d = e.mean_deviator();
-    const Lanes squared = 9.0 * d * d + 0.75 * e.plane.difference_squared;  // (q / 2 mu)^2
+    const Lanes squared = deviator_squared(e);
     const RadialReturn flow = flow_(squared, at(s, plastic_strain));
     if (!flow.any) return;
-    const Lanes third = e.trace() * (1.0 / 3.0);
-    scale_strain(e, 2.0 * (third + flow.scale * d), flow.scale);
-    e.zz = third - 2.0 * flow.scale * d;
     record_flow(s, flow_columns, yield_, flow.plastic_strain);
+    scale_deviator(s, e, flow);
+  }
+  /// Fibres of a bent cell are held along z: their plastic moment is 2 / sqrt(3) times that of
+  /// uniaxial stress. Deviator and moments shrink alike.
+  void return_radially(double* s, Strain& e, BentFlow& bent) const
+  {
+    const Lanes squared = deviator_squared(e);
+    const Lanes together = squared + 0.75 / (4 * mu_ * mu_) * bent.squared;
+    const RadialReturn flow = flow_(together, at(s, plastic_strain));
+    if (!flow.any) return;
+    bent.scale = flow.scale;
+    record_flow(s, flow_columns, yield_, flow.plastic_strain,
+                squared / select(flow.yields, together, 1.0),
+                (1.0 - bent.scale * bent.scale) * bent.energy);
+    scale_deviator(s, e, flow);
+  }
+  /// (q / 2 mu)^2
+  static Lanes deviator_squared(const Strain& e)
+  {
+    const Lanes d = e.mean_deviator();
+    return 9.0 * d * d + 0.75 * e.plane.difference_squared;
+  }
+  /// Of the logarithmic strain; the trace stays.
+  static void scale_deviator(double* s, Strain& e, const RadialReturn& flow)
+  {
+    const Lanes third = e.trace() * (1.0 / 3.0), d = flow.scale * e.mean_deviator();
+    scale_strain(e, 2.0 * (third + d), flow.scale);
+    e.zz = third - 2.0 * d;
     put_where(flow.yields, PlaneTensor(e.plane), s);
     store(select(flow.yields, e.zz, at(s, log_zz)), s + log_zz * lane_count);
   }
 
   void return_in_plane_stress(double* s, Strain& e) const
   {
+    BentFlow straight;
+    return_in_plane_stress(s, e, straight);
+  }
+  void return_in_plane_stress(double* s, Strain& e, BentFlow& bent) const
+  {
     const double sum_modulus = elastic_.youngs_modulus / (1 - elastic_.poisson_ratio);
+    const Lanes sum = sum_modulus * e.plane.sum,
+                difference_squared = 4 * mu_ * mu_ * e.plane.difference_squared;
     const PlaneStressReturn flow = return_to_yield_plane_stress(
-        sum_modulus * e.plane.sum, 4 * mu_ * mu_ * e.plane.difference_squared,
-        at(s, plastic_strain), elastic_, yield_);
+        sum, difference_squared, at(s, plastic_strain), elastic_, yield_, bent.squared);
     if (!flow.any) return;
+    bent.scale = flow.bending_scale;
+    record_flow(s, flow_columns, yield_, flow.plastic_strain, flow.share_of_centre,
+                (1.0 - bent.scale * bent.scale) * bent.energy);
     // Elastic strains are proportional to the stresses in sum and difference.
     scale_strain(e, flow.sum_scale * e.plane.sum, flow.difference_scale);
     e.zz = zz_over_sum() * e.plane.sum;
-    record_flow(s, flow_columns, yield_, flow.plastic_strain);
     put_where(flow.plastic_strain > 0.0, PlaneTensor(e.plane), s);
   }
 

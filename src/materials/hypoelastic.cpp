@@ -88,9 +88,27 @@ class Hypoelastic final : public Law<2> {
   void update(double* state, int blocks, const double* gradient, double dt,
               double* force_stress) const override
   {
-    for (int k = 0; k < blocks; ++k)
+    for (int k = 0; k < blocks; ++k) {
+      BentFlow straight;
       update_block(state + k * columns * lane_count, gradient + k * 4 * lane_count, dt,
-                   force_stress + k * 3 * lane_count);
+                   force_stress + k * 3 * lane_count, straight);
+    }
+  }
+
+  Vec<2> bending_modulus() const override
+  {
+    return {1 / compliance_(0, 0), 1 / compliance_(1, 1)};
+  }
+  void update_bent(double* state, int blocks, const double* gradient, double dt,
+                   double* force_stress, double* bending) const override
+  {
+    for (int k = 0; k < blocks; ++k) {
+      double* b = bending + k * 2 * lane_count;
+      BentFlow bent{load(b), load(b + lane_count)};
+      update_block(state + k * columns * lane_count, gradient + k * 4 * lane_count, dt,
+                   force_stress + k * 3 * lane_count, bent);
+      store(bent.scale, b);
+    }
   }
 
   void force_stress(const double* state, int blocks, double* force_stress) const override
@@ -164,7 +182,7 @@ class Hypoelastic final : public Law<2> {
     store(v0 * tau.xy, out + 2 * lane_count);
   }
 
-  void update_block(double* s, const double* l, double dt, double* out) const
+  void update_block(double* s, const double* l, double dt, double* out, BentFlow& bent) const
   {
     // dt L, and the midpoint gradient dt L (I + dt L / 2)^-1.
     const Lanes axx = dt * load(l), ayx = dt * load(l + lane_count),
@@ -194,13 +212,13 @@ class Hypoelastic final : public Law<2> {
     if constexpr (plane_strain) {
       const auto& z = stiffness_.out_of_plane;
       Lanes zz = at(s, third) + z(0) * d.xx + z(1) * d.yy + z(2) * shear;
-      if constexpr (Plastic) return_radially(s, t, zz);
+      if constexpr (Plastic) return_radially(s, t, zz, bent);
       put(zz, s, third);
     } else {
       const auto& z = stiffness_.thickness_strain;
       const Symmetric old = stress(s);
       PlaneStressReturn flow;
-      if constexpr (Plastic) flow = return_in_plane_stress(s, t);
+      if constexpr (Plastic) flow = return_in_plane_stress(s, t, bent);
       // Elastic part from the stress that was really gained, plastic part -(dep_xx + dep_yy),
       // dep = gamma P sigma.
       put(at(s, third) + z(0) * (t.xx - old.xx) + z(1) * (t.yy - old.yy) + z(2) * (t.xy - old.xy) -
@@ -213,29 +231,35 @@ class Hypoelastic final : public Law<2> {
     put_force_stress(s, Rotation(nxx, nyx, nxy, nyy), t, out);
   }
 
-  void return_radially(double* s, Symmetric& t, Lanes& zz) const
+  /// As in hencky.cpp: fibres are held along z, deviator and moments shrink alike.
+  void return_radially(double* s, Symmetric& t, Lanes& zz, BentFlow& bent) const
   {
     const Lanes p = (t.xx + t.yy + zz) / 3.0;
     const Lanes a = t.xx - p, b = t.yy - p, c = zz - p;
     const Lanes squared = 1.5 * (a * a + b * b + c * c + 2.0 * t.xy * t.xy);
-    const RadialReturn flow = flow_(squared, at(s, plastic_strain));
+    const Lanes together = squared + 0.75 * bent.squared;
+    const RadialReturn flow = flow_(together, at(s, plastic_strain));
     if (!flow.any) return;
-    const Lanes& scale = flow.scale;
+    const Lanes& scale = bent.scale = flow.scale;
     t = {p + scale * a, p + scale * b, scale * t.xy};
     zz = p + scale * c;
-    record_flow(s, flow_columns, yield_, flow.plastic_strain);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain,
+                squared / select(flow.yields, together, 1.0), (1.0 - scale * scale) * bent.energy);
   }
 
-  PlaneStressReturn return_in_plane_stress(double* s, Symmetric& t) const
+  PlaneStressReturn return_in_plane_stress(double* s, Symmetric& t, BentFlow& bent) const
   {
     const Lanes sum = t.xx + t.yy, difference = t.xx - t.yy;
     const PlaneStressReturn flow = return_to_yield_plane_stress(
-        sum, difference * difference + 4.0 * t.xy * t.xy, at(s, plastic_strain), elastic_, yield_);
+        sum, difference * difference + 4.0 * t.xy * t.xy, at(s, plastic_strain), elastic_, yield_,
+        bent.squared);
     if (!flow.any) return flow;
+    bent.scale = flow.bending_scale;
     const Lanes new_sum = flow.sum_scale * sum, new_difference = flow.difference_scale * difference;
     t = {0.5 * (new_sum + new_difference), 0.5 * (new_sum - new_difference),
          flow.difference_scale * t.xy};
-    record_flow(s, flow_columns, yield_, flow.plastic_strain);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain, flow.share_of_centre,
+                (1.0 - bent.scale * bent.scale) * bent.energy);
     return flow;
   }
 

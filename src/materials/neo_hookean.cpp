@@ -77,6 +77,10 @@ class NeoHookeanPlane final : public Law<2> {
   {
     return std::sqrt(elastic_.in_plane_modulus(Plane) / density_);
   }
+  Vec<2> bending_modulus() const override
+  {
+    return Vec<2>::Constant(elastic_.bending_modulus(Plane));
+  }
   /// Along the largest stretch: rho_0 c^2 = d tau / d ln(stretch) - tau. In plane stress the
   /// thickness gives way: d ln J / d ln(stretch) = 2 mu b_zz / (2 mu b_zz + lambda).
   Lanes fastest_wave_squared(const double* s) const override

@@ -90,6 +90,32 @@ std::vector<double> joined_over_ranks(MPI_Comm comm, std::span<const double> val
   return all;
 }
 
+std::vector<std::vector<double>> traded_over_ranks(MPI_Comm comm,
+                                                   const std::vector<std::vector<double>>& out)
+{
+  const std::size_t ranks = out.size();
+  std::vector<int> sent(ranks), received(ranks), sent_at(ranks), received_at(ranks);
+  std::vector<double> all;
+  for (std::size_t r = 0; r < ranks; ++r) {
+    sent_at[r] = int(all.size());
+    sent[r] = int(out[r].size());
+    all.insert(all.end(), out[r].begin(), out[r].end());
+  }
+  MPI_Alltoall(sent.data(), 1, MPI_INT, received.data(), 1, MPI_INT, comm);
+  int total = 0;
+  for (std::size_t r = 0; r < ranks; ++r) {
+    received_at[r] = total;
+    total += received[r];
+  }
+  std::vector<double> buffer(static_cast<std::size_t>(total));
+  MPI_Alltoallv(all.data(), sent.data(), sent_at.data(), MPI_DOUBLE, buffer.data(), received.data(),
+                received_at.data(), MPI_DOUBLE, comm);
+  std::vector<std::vector<double>> in(ranks);
+  for (std::size_t r = 0; r < ranks; ++r)
+    in[r].assign(buffer.begin() + received_at[r], buffer.begin() + received_at[r] + received[r]);
+  return in;
+}
+
 void agree(MPI_Comm comm, const std::function<void()>& action)
 {
   enum Kind : int { input, numerical, file, other, none };

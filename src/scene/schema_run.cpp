@@ -33,6 +33,14 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
 {
   using N = Numerics;
   static const std::vector<Parameter<N>> rows{
+      member<N>("formulation", &N::formulation, {},
+                "weights in the present configuration, on a grid that forgets; or in the reference "
+                "one, on cells that are locations, with contact of the body with itself"),
+      member<N>("contact_stiffness", &N::contact_stiffness, {.bound = from_to(0, 100)},
+                "twice this times the modulus of the fastest wave times the depth over the size of "
+                "a location is the pressure across a flush contact; 0: no contact")
+          .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
+                 "formulation: total_lagrangian"}),
       member<N>("plane", &N::plane, {}, "plane strain or plane stress").in_plane(),
       member<N>("thickness", &N::thickness, {.quantity = Quantity::length, .bound = above(0)},
                 "out of the plane")

@@ -43,10 +43,13 @@ constexpr Member<double> measured[] = {{"time", &HistoryLine::time},
                                        {"elastic_energy", &HistoryLine::elastic_energy},
                                        {"plastic_work", &HistoryLine::plastic_work},
                                        {"external_work", &HistoryLine::external_work},
+                                       {"contact_energy", &HistoryLine::contact_energy},
+                                       {"overlapped_area", &HistoryLine::overlapped_area},
                                        {"energy_error", &HistoryLine::energy_error},
                                        {"momentum_error", &HistoryLine::momentum_error},
                                        {"time_step", &HistoryLine::time_step}};
 constexpr Member<GlobalIndex> counted[] = {{"particles", &HistoryLine::particles},
+                                           {"contact_pairs", &HistoryLine::contact_pairs},
                                            {"behind_piston", &HistoryLine::behind_piston},
                                            {"outside_walls", &HistoryLine::outside_walls}};
 
@@ -82,6 +85,11 @@ std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind)
   }
   for (const char* energy : {"kinetic_energy", "elastic_energy", "plastic_work", "external_work"})
     list.push_back({energy, "J"});
+  if (kind.contact) {
+    list.push_back({"contact_energy", "J"});
+    list.push_back({"overlapped_area", "m2"});
+    list.push_back({"contact_pairs", "1"});
+  }
   list.push_back({"energy_error", "1"});
   list.push_back({"momentum_error", "1"});
   list.push_back({"particles", "1"});
@@ -100,9 +108,13 @@ std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind
     values.insert(values.end(), {line.strain, line.stress(), line.piston_stress, line.edge_stress});
     if (kind.load_cell) values.push_back(line.load_cell_stress);
   }
+  values.insert(values.end(), {line.kinetic_energy, line.elastic_energy, line.plastic_work,
+                               line.external_work});
+  if (kind.contact)
+    values.insert(values.end(),
+                  {line.contact_energy, line.overlapped_area, double(line.contact_pairs)});
   values.insert(values.end(),
-                {line.kinetic_energy, line.elastic_energy, line.plastic_work, line.external_work,
-                 line.energy_error, line.momentum_error, double(line.particles), line.time_step});
+                {line.energy_error, line.momentum_error, double(line.particles), line.time_step});
   if (kind.piston)
     values.insert(values.end(), {double(line.behind_piston), double(line.outside_walls)});
   return values;
@@ -113,7 +125,7 @@ History<Dim>::History(Formulation<Dim>& formulation, std::optional<Apparatus<Dim
                       double largest_speed)
     : formulation_(formulation),
       apparatus_(std::move(apparatus)),
-      start_(sum_particles(comm(), formulation_.bodies())),
+      start_(sum_over_bodies(formulation_)),
       energy_(start_.mass, fastest_wave(formulation_), largest_speed)
 {
 }
@@ -121,13 +133,14 @@ History<Dim>::History(Formulation<Dim>& formulation, std::optional<Apparatus<Dim
 template <int Dim>
 HistoryKind History<Dim>::kind() const
 {
-  return {apparatus_.has_value(), apparatus_ && apparatus_->load_cell_body >= 0};
+  return {apparatus_.has_value(), apparatus_ && apparatus_->load_cell_body >= 0,
+          start_.contact.has_value()};
 }
 
 template <int Dim>
 void History<Dim>::before_line()
 {
-  stress_work_before_ = sum_particles(comm(), formulation_.bodies()).stress_work();
+  stress_work_before_ = sum_over_bodies(formulation_).stress_work();
 }
 
 template <int Dim>
@@ -135,7 +148,7 @@ void History<Dim>::observe()
 {
   if (formulation_.steps() % steps_between_looks == 0) {
     take_reactions();
-    energy_.check(formulation_, surplus(sum_particles(comm(), formulation_.bodies())),
+    energy_.check(formulation_, surplus(sum_over_bodies(formulation_)),
                   work_size_ + start_.kinetic_energy);
   }
   if (!kind().load_cell || formulation_.steps() % steps_between_readings != 0) return;
@@ -197,14 +210,14 @@ void History<Dim>::begin_line(HistoryLine& line)
 
 /// What is too much in the energy balance, J.
 template <int Dim>
-double History<Dim>::surplus(const ParticleSums<Dim>& sums) const
+double History<Dim>::surplus(const Sums<Dim>& sums) const
 {
   return sums.kinetic_energy + sums.stress_work() - external_work_ - start_.kinetic_energy -
          start_.stress_work();
 }
 
 template <int Dim>
-void History<Dim>::balance(HistoryLine& line, const ParticleSums<Dim>& sums)
+void History<Dim>::balance(HistoryLine& line, const Sums<Dim>& sums)
 {
   // Velocities, and with them kinetic energy and external work, stand half a step before the
   // stresses that the step leaves, with USF half a step after them (leap-frog): the work of the
@@ -227,11 +240,16 @@ const HistoryLine& History<Dim>::record(double dt)
   HistoryLine line;
   line.time = formulation_.time();
   line.time_step = dt;
-  const ParticleSums<Dim> sums = sum_particles(comm(), formulation_.bodies());
+  const Sums<Dim> sums = sum_over_bodies(formulation_);
   line.particles = sums.particles;
   line.kinetic_energy = sums.kinetic_energy;
   line.elastic_energy = sums.elastic_energy;
   line.plastic_work = sums.plastic_work;
+  if (sums.contact) {
+    line.contact_energy = sums.contact->energy;
+    line.overlapped_area = sums.contact->overlapped_area;
+    line.contact_pairs = sums.contact->pairs;
+  }
   begin_line(line);
   if (apparatus_) {
     line.strain = apparatus_->strain(line.time);
@@ -244,7 +262,7 @@ const HistoryLine& History<Dim>::record(double dt)
 }
 
 template <int Dim>
-void History<Dim>::check(const ParticleSums<Dim>& sums, const HistoryLine& line) const
+void History<Dim>::check(const Sums<Dim>& sums, const HistoryLine& line) const
 {
   // The sums are the same on every rank, so all of them throw or none.
   if (sums.particles != start_.particles || sums.id_sum != start_.id_sum ||

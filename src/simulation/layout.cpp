@@ -172,6 +172,10 @@ Layout<Dim> make_layout(const scene::Scene& scene, const micrograph::Specimen<Di
   layout.largest_speed = std::max(loading ? loading->speed : 0, specimen.largest_initial_speed());
   measure_materials(scene, specimen, layout);
   layout.cfl = default_cfl(scene.numerics);
+  layout.crossed_in_step =
+      scene.numerics.formulation == scene::FormulationKind::total_lagrangian
+          ? layout.location_size.minCoeff()
+          : layout.geometry.smallest_spacing();
   if (loading) {
     const double length = specimen.size()[axis_of(loading->piston)];
     const double crossing = length / layout.wave_speed;

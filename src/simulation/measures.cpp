@@ -7,44 +7,41 @@
 namespace mpm {
 
 template <int Dim>
-ParticleSums<Dim> sum_particles(MPI_Comm comm, const std::vector<Body<Dim>>& bodies)
+Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation)
 {
-  std::array<GlobalIndex, 2> counts{0, 0};
-  std::array<double, 4 + Dim> sums{};
-  for (const Body<Dim>& body : bodies) {
+  const Carried<Dim> carried = formulation.carried();
+  std::array<GlobalIndex, 3> counts{0, 0, carried.contact ? carried.contact->pairs : 0};
+  std::array<double, 6 + Dim> sums{};
+  sums[1] = carried.kinetic_energy;
+  sums[2] = carried.elastic_energy;
+  if (carried.contact) {
+    sums[4] = carried.contact->energy;
+    sums[5] = carried.contact->overlapped_area;
+  }
+  for (int d = 0; d < Dim; ++d) sums[6 + d] = carried.momentum[d];
+  for (const Body<Dim>& body : formulation.bodies()) {
     const ParticleStore& particles = body.particles;
     counts[0] += particles.size();
     for (const GlobalIndex id : particles.ids()) counts[1] += id;
-    const int velocity = particles.motion().find("velocity");
     const int mass = particles.motion().find("mass");
     const int work = particles.state().find("plastic_work");
-    Lanes m = 0, kinetic = 0, elastic = 0, plastic = 0, momentum[Dim];
-    for (Lanes& component : momentum) component = 0;
+    Lanes m = 0, elastic = 0, plastic = 0;
     for (LocalIndex b = 0; b < particles.blocks(); ++b) {
-      const double* motion = particles.motion().block(b);
       const double* state = particles.state().block(b);
-      const Lanes mp = load(motion + mass * lane_count);
-      Lanes squared = 0;
-      for (int d = 0; d < Dim; ++d) {
-        const Lanes v = load(motion + (velocity + d) * lane_count);
-        momentum[d] += mp * v;
-        squared += v * v;
-      }
-      m += mp;
-      kinetic += 0.5 * mp * squared;
+      m += load(particles.motion().block(b) + mass * lane_count);
       elastic += body.law->elastic_energy(state);
       if (work >= 0) plastic += load(state + work * lane_count);
     }
     sums[0] += stdx::reduce(m);
-    sums[1] += stdx::reduce(kinetic);
     sums[2] += stdx::reduce(elastic);
     sums[3] += stdx::reduce(plastic);
-    for (int d = 0; d < Dim; ++d) sums[4 + d] += stdx::reduce(momentum[d]);
   }
+  const MPI_Comm comm = formulation.decomposition().comm();
   sum_over_ranks(comm, counts);
   sum_over_ranks(comm, sums);
-  ParticleSums<Dim> result{counts[0], counts[1], sums[0], sums[1], sums[2], sums[3]};
-  for (int d = 0; d < Dim; ++d) result.momentum[d] = sums[4 + d];
+  Sums<Dim> result{counts[0], counts[1], sums[0], sums[1], sums[2], sums[3]};
+  for (int d = 0; d < Dim; ++d) result.momentum[d] = sums[6 + d];
+  if (carried.contact) result.contact = {sums[4], sums[5], counts[2]};
   return result;
 }
 
@@ -90,8 +87,8 @@ AxialStress axial_stress(const Body<Dim>& body, int axis)
   return {stdx::reduce(mass_stress), stdx::reduce(total)};
 }
 
-template ParticleSums<2> sum_particles(MPI_Comm, const std::vector<Body<2>>&);
-template ParticleSums<3> sum_particles(MPI_Comm, const std::vector<Body<3>>&);
+template Sums<2> sum_over_bodies(const Formulation<2>&);
+template Sums<3> sum_over_bodies(const Formulation<3>&);
 template Penetration find_behind(MPI_Comm, const std::vector<Body<2>>&,
                                  std::span<const RigidWall<2>* const>, double, const Vec<2>&);
 template Penetration find_behind(MPI_Comm, const std::vector<Body<3>>&,

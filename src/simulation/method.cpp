@@ -1,4 +1,5 @@
 #include <mpm/core/error.hpp>
+#include <mpm/lagrangian/location_cells.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/method.hpp>
 
@@ -9,8 +10,19 @@
 
 namespace mpm {
 
+namespace {
+
+bool is_total_lagrangian(const scene::Numerics& numerics)
+{
+  return numerics.formulation == scene::FormulationKind::total_lagrangian;
+}
+
+}  // namespace
+
 std::optional<double> stable_cfl_of(const scene::Numerics& numerics)
 {
+  // A flush contact is 2 kappa times as stiff as the cells that it lies between.
+  if (is_total_lagrangian(numerics)) return 0.8 / std::sqrt(1 + 2 * numerics.contact_stiffness);
   return stable_cfl(*numerics.shape_function, *numerics.scheme, *numerics.update_order);
 }
 
@@ -19,7 +31,12 @@ double default_cfl(const scene::Numerics& numerics)
   if (numerics.cfl) return *numerics.cfl;
   const auto stable = stable_cfl_of(numerics);
   if (!stable) throw InputError("no time step is stable with this shape function");
-  return numerics.shape_function->cfl_share * *stable;
+  return is_total_lagrangian(numerics) ? *stable : numerics.shape_function->cfl_share * *stable;
+}
+
+double stress_moment_of(const scene::Numerics& numerics)
+{
+  return is_total_lagrangian(numerics) ? 0.5 : numerics.update_order->stress_moment;
 }
 
 StepExtras extras_of(const scene::Numerics& numerics)
@@ -49,7 +66,7 @@ std::vector<std::string> method_words(const scene::Numerics& numerics, int dimen
 template <int Dim>
 TimeStep time_step_of(const Layout<Dim>& layout)
 {
-  return {layout.cfl, layout.geometry.smallest_spacing(), layout.wave_speed, layout.largest_speed};
+  return {layout.cfl, layout.crossed_in_step, layout.wave_speed, layout.largest_speed};
 }
 
 template <int Dim>
@@ -66,6 +83,16 @@ std::unique_ptr<Transfer<Dim>> make_transfer(const scene::Numerics& numerics,
   return make_transfer<Dim>(
       numerics.shape_function, numerics.scheme,
       {numerics.domain / particles_per_cell, numerics.pic_share, numerics.f_bar});
+}
+
+template <int Dim>
+std::vector<Column> motion_columns(const scene::Numerics& numerics, int particles_per_cell,
+                                   const Law<Dim>& law)
+{
+  if constexpr (Dim == 2)
+    if (is_total_lagrangian(numerics)) return LocationCells::columns(law);
+  return make_transfer<Dim>(numerics, particles_per_cell)
+      ->motion_columns(numerics.update_order->remaps);
 }
 
 template <int Dim>
@@ -114,6 +141,8 @@ template double expected_steps(const scene::Scene&, const Layout<2>&);
 template double expected_steps(const scene::Scene&, const Layout<3>&);
 template std::unique_ptr<Transfer<2>> make_transfer(const scene::Numerics&, int);
 template std::unique_ptr<Transfer<3>> make_transfer(const scene::Numerics&, int);
+template std::vector<Column> motion_columns(const scene::Numerics&, int, const Law<2>&);
+template std::vector<Column> motion_columns(const scene::Numerics&, int, const Law<3>&);
 template PartitionRules<2> partition_rules(const scene::Scene&);
 template PartitionRules<3> partition_rules(const scene::Scene&);
 template Partition<2> first_partition(MPI_Comm, const scene::Scene&, const micrograph::Specimen<2>&,

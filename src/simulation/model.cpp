@@ -1,5 +1,6 @@
 #include <mpm/conditions/rigid_body.hpp>
 #include <mpm/core/error.hpp>
+#include <mpm/lagrangian/location_cells.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
@@ -57,6 +58,7 @@ class BodyFiller {
     }
     motion(mass_, p) = body_.density * layout_.particle_volume;
     set_domain_at_rest<Dim>(motion, p, 0.5 * layout_.location_size);
+    if constexpr (Dim == 2) LocationCells::initialise(motion, p);
     body_.particles.state()(0, p) = layout_.particle_volume;
     body_.law->initialise(body_.particles.state(), p);
   }
@@ -81,10 +83,10 @@ IndexBox<Dim> nearby(const IndexBox<Dim>& locations, const Layout<Dim>& layout,
 
 template <int Dim>
 Body<Dim> empty_body(const scene::Material& material, int index, const scene::Scene& scene,
-                     const typename UpdatedLagrangian<Dim>::Setup& setup)
+                     int particles_per_cell, const Loads<Dim>& loads)
 {
   auto law = law_of<Dim>(material, scene);
-  ParticleStore particles = empty_store(scene, *setup.transfer, *law, setup.slots.loads);
+  ParticleStore particles = empty_store(scene, particles_per_cell, *law, loads);
   return {material.name, index, material.density(), std::move(law), std::move(particles)};
 }
 
@@ -94,7 +96,7 @@ void fill_body(Body<Dim>& body, const scene::Scene& scene, const Lattice<Dim>& l
 {
   BodyFiller<Dim> filler(body, layout, decomposition);
   // Velocities stand before or after the stresses of t = 0 (leap-frog).
-  const double moment = -scene.numerics.update_order->stress_moment * time_step_of(layout).first();
+  const double moment = -stress_moment_of(scene.numerics) * time_step_of(layout).first();
   const auto velocity_of = [&](const IndexVec<Dim>& at, int shape) {
     scene::PerAxis<double> velocity{};
     if (const auto& formulas = scene.specimen.initial_velocity)
@@ -143,7 +145,14 @@ std::vector<Vec<Dim>> points_of(int material, const Specimen<Dim>& specimen,
 
 WallGrip grip_of(scene::Grip grip)
 {
-  return grip == scene::Grip::stick ? WallGrip::stick : WallGrip::slip;
+  switch (grip) {
+    case scene::Grip::slip:
+      return WallGrip::slip;
+    case scene::Grip::contact:
+      return WallGrip::contact;
+    default:
+      return WallGrip::stick;
+  }
 }
 
 template <int Dim>
@@ -156,7 +165,7 @@ void add_apparatus(const scene::Scene& scene, const Specimen<Dim>& specimen,
     auto made = std::make_unique<RigidWall<Dim>>(WallPlacement{axis, upper, position}, motion, grip,
                                                  reaction_book(scene.numerics));
     RigidWall<Dim>* pointer = made.get();
-    model.setup.slots.conditions.push_back(std::move(made));
+    model.slots.conditions.push_back(std::move(made));
     return pointer;
   };
   Apparatus<Dim> apparatus;
@@ -174,7 +183,7 @@ void add_apparatus(const scene::Scene& scene, const Specimen<Dim>& specimen,
   apparatus.piston = wall(axis, upper, upper ? apparatus.length : 0, inwards);
   apparatus.edge = wall(axis, !upper, edge, {});
   apparatus.at_rest.push_back(apparatus.edge);
-  if (layout.load_cell) apparatus.load_cell_body = int(model.setup.bodies.size()) - 1;
+  if (layout.load_cell) apparatus.load_cell_body = int(model.bodies.size()) - 1;
   model.apparatus = std::move(apparatus);
 }
 
@@ -198,12 +207,12 @@ void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, Model<D
       if (!condition) continue;
       const auto* wall = dynamic_cast<const RigidWall<Dim>*>(condition.get());
       if (model.apparatus && wall) model.apparatus->at_rest.push_back(wall);
-      model.setup.slots.conditions.push_back(std::move(condition));
+      model.slots.conditions.push_back(std::move(condition));
     }
   const auto* free = std::get_if<scene::FreeMotion>(&scene.motion);
   if (!free) return;
   for (const scene::MovingSide& side : free->moving_sides)
-    model.setup.slots.conditions.push_back(std::make_unique<RigidWall<Dim>>(
+    model.slots.conditions.push_back(std::make_unique<RigidWall<Dim>>(
         placement_of(specimen, axis_of(side.side), upper_of(side.side)),
         WallMotion{.table = side.table}, grip_of(side.grip), reaction_book(scene.numerics)));
 }
@@ -212,11 +221,11 @@ void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, Model<D
 template <int Dim>
 void mark_loaded(const scene::Scene& scene, const Specimen<Dim>& specimen,
                  const Layout<Dim>& layout, MPI_Comm comm,
-                 typename UpdatedLagrangian<Dim>::Setup& setup)
+                 Model<Dim>& model)
 {
-  const std::vector<SurfaceMark<Dim>> marks = setup.slots.loads.marks();
+  const std::vector<SurfaceMark<Dim>> marks = model.slots.loads.marks();
   const std::vector<GlobalIndex> counts =
-      mark_surfaces<Dim>(comm, marks, specimen.count(), layout, setup.bodies);
+      mark_surfaces<Dim>(comm, marks, specimen.count(), layout, model.bodies);
   for (std::size_t k = 0; k < marks.size(); ++k)
     if (counts[k] == 0)
       throw InputError(fmt::format(
@@ -237,10 +246,10 @@ Loads<Dim> loads_of(const scene::Scene& scene)
 }
 
 template <int Dim>
-ParticleStore empty_store(const scene::Scene& scene, const Transfer<Dim>& transfer,
-                          const Law<Dim>& law, const Loads<Dim>& loads)
+ParticleStore empty_store(const scene::Scene& scene, int particles_per_cell, const Law<Dim>& law,
+                          const Loads<Dim>& loads)
 {
-  std::vector<Column> motion = transfer.motion_columns(scene.numerics.update_order->remaps);
+  std::vector<Column> motion = motion_columns<Dim>(scene.numerics, particles_per_cell, law);
   if (scene.exact_solution || loads.need_initial_position())
     motion.push_back({"initial_position", Dim, "m"});
   std::vector<std::string> zero_in_padding{"velocity",      "mass",           "affine_velocity",
@@ -257,29 +266,25 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
                       const Layout<Dim>& layout, const Decomposition<Dim>& decomposition)
 {
   Model<Dim> model;
-  auto& setup = model.setup;
-  setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
-  setup.order = scene.numerics.update_order;
-  setup.extras = extras_of(scene.numerics);
-  setup.slots.loads = loads_of<Dim>(scene);
-  setup.mass_cut = 1e-24 * layout.largest_particle_mass;
+  model.slots.loads = loads_of<Dim>(scene);
   const Lattice<Dim> lattice = specimen.lattice(nearby(specimen.whole(), layout, decomposition));
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
     const scene::Material& material = scene.materials[k];
     if (specimen.particles_of_material()[k] == 0) continue;
     if (material.law->deformable()) {
-      setup.bodies.push_back(empty_body<Dim>(material, int(k), scene, setup));
-      fill_body(setup.bodies.back(), scene, lattice, layout, decomposition);
+      model.bodies.push_back(empty_body<Dim>(material, int(k), scene, layout.per_cell, model.slots.loads));
+      fill_body(model.bodies.back(), scene, lattice, layout, decomposition);
       continue;
     }
-    setup.slots.conditions.push_back(std::make_unique<RigidBody<Dim>>(
+    model.slots.conditions.push_back(std::make_unique<RigidBody<Dim>>(
         points_of(int(k), specimen, layout, decomposition.comm()), 0.5 * layout.location_size,
         motion_of<Dim>(material), reaction_book(scene.numerics)));
   }
   if (layout.load_cell) {
     const scene::Material material = load_cell_material(scene, layout.load_cell->density_ratio);
-    setup.bodies.push_back(empty_body<Dim>(material, int(scene.materials.size()), scene, setup));
-    BodyFiller<Dim> filler(setup.bodies.back(), layout, decomposition);
+    model.bodies.push_back(
+        empty_body<Dim>(material, int(scene.materials.size()), scene, layout.per_cell, model.slots.loads));
+    BodyFiller<Dim> filler(model.bodies.back(), layout, decomposition);
     const IndexBox<Dim>& box = layout.load_cell->locations;
     const auto visit_home = [&](const auto& visit) {
       for_each_index(nearby(box, layout, decomposition), [&](const IndexVec<Dim>& at) {
@@ -288,16 +293,16 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
     };
     LocalIndex count = 0;
     visit_home([&](const IndexVec<Dim>&) { ++count; });
-    setup.bodies.back().particles.reserve(count);
+    model.bodies.back().particles.reserve(count);
     visit_home([&](const IndexVec<Dim>& at) {
       filler.add(at, specimen.locations() + number_in(box, at), {});
     });
-    setup.bodies.back().particles.seal();
+    model.bodies.back().particles.seal();
   }
   if (std::holds_alternative<scene::Loading>(scene.motion))
     add_apparatus(scene, specimen, layout, model);
   add_sides(scene, specimen, model);
-  mark_loaded(scene, specimen, layout, decomposition.comm(), setup);
+  mark_loaded(scene, specimen, layout, decomposition.comm(), model);
   return model;
 }
 
@@ -307,9 +312,7 @@ template Model<3> make_model(const scene::Scene&, const Specimen<3>&, const Layo
                              const Decomposition<3>&);
 template Loads<2> loads_of<2>(const scene::Scene&);
 template Loads<3> loads_of<3>(const scene::Scene&);
-template ParticleStore empty_store(const scene::Scene&, const Transfer<2>&, const Law<2>&,
-                                   const Loads<2>&);
-template ParticleStore empty_store(const scene::Scene&, const Transfer<3>&, const Law<3>&,
-                                   const Loads<3>&);
+template ParticleStore empty_store(const scene::Scene&, int, const Law<2>&, const Loads<2>&);
+template ParticleStore empty_store(const scene::Scene&, int, const Law<3>&, const Loads<3>&);
 
 }  // namespace mpm

@@ -24,10 +24,11 @@ int sum_of_bytes(const Columns& columns)
 
 template <int Dim>
 Plan::Particles particles_of(const scene::Material& material, double count,
-                             const scene::Scene& scene, const Transfer<Dim>& transfer)
+                             const scene::Scene& scene, int particles_per_cell)
 {
   const auto law = law_of<Dim>(material, scene);
-  const ParticleStore store = empty_store(scene, transfer, *law, loads_of<Dim>(scene));
+  const ParticleStore store =
+      empty_store(scene, particles_per_cell, *law, loads_of<Dim>(scene));
   Plan::Particles particles{
       material.name, count, law->wave_speed(), material.density(), {{"id", sizeof(GlobalIndex)}}};
   for (const ColumnGroup* group : {&store.motion(), &store.state()})
@@ -38,18 +39,19 @@ Plan::Particles particles_of(const scene::Material& material, double count,
 
 template <int Dim>
 std::vector<Plan::Particles> bodies_of(const Preparation<Dim>& preparation,
-                                       const Transfer<Dim>& transfer)
+                                       int particles_per_cell)
 {
   const scene::Scene& scene = preparation.scene;
   std::vector<Plan::Particles> bodies;
   for (std::size_t k = 0; k < scene.materials.size(); ++k) {
     const auto count = double(preparation.specimen.particles_of_material()[k]);
     if (scene.materials[k].law->deformable() && count > 0)
-      bodies.push_back(particles_of(scene.materials[k], count, scene, transfer));
+      bodies.push_back(particles_of<Dim>(scene.materials[k], count, scene, particles_per_cell));
   }
   if (const auto& cell = preparation.layout.load_cell)
-    bodies.push_back(particles_of(load_cell_material(scene, cell->density_ratio),
-                                  double(cell->locations.size()), scene, transfer));
+    bodies.push_back(particles_of<Dim>(load_cell_material(scene, cell->density_ratio),
+                                  double(cell->locations.size()), scene,
+                                  particles_per_cell));
   return bodies;
 }
 
@@ -160,7 +162,7 @@ Plan make_plan(const Preparation<Dim>& preparation)
   const auto transfer = make_transfer<Dim>(numerics, preparation.layout.per_cell);
   Plan plan;
   plan.method = method_words(numerics, Dim);
-  plan.bodies = bodies_of(preparation, *transfer);
+  plan.bodies = bodies_of(preparation, preparation.layout.per_cell);
   plan.nodes = nodes_of(preparation, transfer->support());
   plan.passes = outline_step<Dim>(numerics.update_order, extras_of(numerics),
                                   loads_of<Dim>(scene).act_on_particles());

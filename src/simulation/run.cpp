@@ -44,7 +44,7 @@ class Run {
     keep();
     const auto loop_start = Clock::now();
     const double observed_before = result_.observer_seconds;
-    while (!finished_at(stepper_.time(), stepper_.steps())) try {
+    while (!finished_at(stepper_->time(), stepper_->steps())) try {
         advance();
       } catch (const NumericalError& error) {
         go_back(error);
@@ -66,14 +66,14 @@ class Run {
         observers_(observers),
         model_(make_model(scene_, preparation.specimen, layout_, decomposition)),
         time_step_(time_step_of(layout_)),
-        stepper_(decomposition, std::move(model_.setup)),
+        stepper_(make_formulation(scene_, layout_, decomposition, std::move(model_))),
         balance_(partition_rules<Dim>(scene_), scene_.numerics.repartition_interval),
-        history_(stepper_, model_.apparatus, layout_.largest_speed),
+        history_(*stepper_, model_.apparatus, layout_.largest_speed),
         keeps_(retries() || std::ranges::any_of(observers_, [](const Observer<Dim>* observer) {
                  return observer->wants_last_sound_state();
                }))
   {
-    result_.particles = stepper_.particles();
+    result_.particles = stepper_->particles();
     sum_over_ranks(comm_, std::span(&result_.particles, 1));
   }
 
@@ -84,26 +84,26 @@ class Run {
     const auto line_after = [&](double time) {
       return std::size_t(time / line_interval * (1 + 1e-12)) + 1;
     };
-    std::size_t next_line = line_after(stepper_.time());
-    double dt = step_share_ * time_step_.next(stepper_);
-    while (!finished_at(stepper_.time(), stepper_.steps())) {
-      if (stepper_.steps() % Formulation<Dim>::steps_between_checks == 0)
-        dt = step_share_ * time_step_.next(stepper_);
-      const double last = std::min(dt, layout_.end_time - stepper_.time());
-      const double after = stepper_.time() + last;
+    std::size_t next_line = line_after(stepper_->time());
+    double dt = step_share_ * time_step_.next(*stepper_);
+    while (!finished_at(stepper_->time(), stepper_->steps())) {
+      if (stepper_->steps() % Formulation<Dim>::steps_between_checks == 0)
+        dt = step_share_ * time_step_.next(*stepper_);
+      const double last = std::min(dt, layout_.end_time - stepper_->time());
+      const double after = stepper_->time() + last;
       const bool line_due = after >= double(next_line) * line_interval * (1 - 1e-12) ||
-                            finished_at(after, stepper_.steps() + 1);
+                            finished_at(after, stepper_->steps() + 1);
       if (line_due) history_.before_line();
-      stepper_.step(last);
-      balance_.look(stepper_);
+      stepper_->step(last);
+      balance_.look(*stepper_);
       history_.observe();
       if (line_due) {
-        stepper_.check();
+        stepper_->check();
         record(last);
-        next_line = line_after(stepper_.time());
+        next_line = line_after(stepper_->time());
       }
       look();
-      if (stepper_.steps() % KeptState<Dim>::steps_between == 0 && history_.is_sound()) keep();
+      if (stepper_->steps() % KeptState<Dim>::steps_between == 0 && history_.is_sound()) keep();
     }
   }
 
@@ -130,7 +130,7 @@ class Run {
   void keep()
   {
     if (!keeps_) return;
-    kept_.save(stepper_, balance_, history_);
+    kept_.save(*stepper_, balance_, history_);
     tell([](Observer<Dim>& observer, const State&) { observer.kept(); });
   }
 
@@ -138,14 +138,14 @@ class Run {
   void go_back(const NumericalError& error)
   {
     if (!keeps_) stop(error);
-    const GlobalIndex failed_step = stepper_.steps();
-    const double failed_time = stepper_.time();
-    kept_.load(stepper_, balance_, history_);
+    const GlobalIndex failed_step = stepper_->steps();
+    const double failed_time = stepper_->time();
+    kept_.load(*stepper_, balance_, history_);
     if (!retries() || int(result_.goings_back.size()) >= most_attempts) stop(error);
     step_share_ *= share_of_step;
-    result_.repeated_steps += failed_step - stepper_.steps();
-    result_.goings_back.push_back({failed_step, failed_time, error.what(), stepper_.steps(),
-                                   stepper_.time(), history_.lines().size(), step_share_});
+    result_.repeated_steps += failed_step - stepper_->steps();
+    result_.goings_back.push_back({failed_step, failed_time, error.what(), stepper_->steps(),
+                                   stepper_->time(), history_.lines().size(), step_share_});
     tell([&](Observer<Dim>& observer, const State&) {
       observer.went_back(result_.goings_back.back());
     });
@@ -163,9 +163,9 @@ class Run {
 
   State state()
   {
-    const double by_steps = scene_.steps ? double(stepper_.steps()) / double(*scene_.steps) : 0.0;
-    return {stepper_, model_.apparatus ? model_.apparatus->strain(stepper_.time()) : 0.0,
-            std::max(stepper_.time() / layout_.end_time, by_steps)};
+    const double by_steps = scene_.steps ? double(stepper_->steps()) / double(*scene_.steps) : 0.0;
+    return {*stepper_, model_.apparatus ? model_.apparatus->strain(stepper_->time()) : 0.0,
+            std::max(stepper_->time() / layout_.end_time, by_steps)};
   }
 
   bool finished_at(double time, GlobalIndex steps) const
@@ -177,11 +177,11 @@ class Run {
   void fill_result()
   {
     result_.lines = history_.lines();
-    result_.steps = stepper_.steps();
-    result_.end_time = stepper_.time();
+    result_.steps = stepper_->steps();
+    result_.end_time = stepper_->time();
     result_.first_time_step = time_step_.first();
-    result_.largest_rank_bytes = GlobalIndex(largest_over_ranks(comm_, double(stepper_.bytes())));
-    result_.active_nodes = stepper_.grid().active_nodes();
+    result_.largest_rank_bytes = GlobalIndex(largest_over_ranks(comm_, double(stepper_->bytes())));
+    result_.active_nodes = stepper_->active_nodes();
     sum_over_ranks(comm_, std::span(&result_.active_nodes, 1));
     result_.deepest_behind_piston = history_.deepest_behind_piston();
     for (const HistoryLine& line : result_.lines)
@@ -195,14 +195,14 @@ class Run {
 
   void measure_cooperation()
   {
-    const Counters mine = stepper_.counters();
-    const double steps = double(std::max<GlobalIndex>(stepper_.steps(), 1));
+    const Counters mine = stepper_->counters();
+    const double steps = double(std::max<GlobalIndex>(stepper_->steps(), 1));
     std::array<double, 4> largest{double(mine.messages) / steps, double(mine.bytes) / steps,
-                                  mine.waiting_seconds, double(stepper_.particles())};
+                                  mine.waiting_seconds, double(stepper_->particles())};
     largest_over_ranks(comm_, largest);
     GlobalIndex migrated = mine.migrated;
     sum_over_ranks(comm_, std::span(&migrated, 1));
-    const Ownership<Dim>& ownership = stepper_.decomposition().ownership();
+    const Ownership<Dim>& ownership = stepper_->decomposition().ownership();
     std::string words = "metis";
     if (ownership.by_cuts()) {
       words = "cuts";
@@ -246,7 +246,7 @@ class Run {
   std::span<Observer<Dim>* const> observers_;
   Model<Dim> model_;
   TimeStep time_step_;
-  UpdatedLagrangian<Dim> stepper_;
+  std::unique_ptr<Formulation<Dim>> stepper_;
   LoadBalance<Dim> balance_;
   History<Dim> history_;
   bool keeps_;

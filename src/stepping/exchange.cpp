@@ -152,7 +152,7 @@ template <int Dim>
 void Exchange<Dim>::note_loss(const Body<Dim>& body, const LostParticle<Dim>& lost,
                               const Moment& moment)
 {
-  if (!loss_) loss_ = Loss{lost, body.name, moment};
+  if (!loss_) loss_ = Loss<Dim>{lost, body.name, moment};
 }
 
 /// Only particles near other ranks, or near the seam of a periodic axis, can leave.
@@ -242,7 +242,7 @@ void Exchange<Dim>::archive_loss(Archive& archive)
   int lost = loss_.has_value();
   archive.value("lost", lost);
   if (lost == 0) return loss_.reset();
-  Loss loss = loss_.value_or(Loss{});
+  Loss<Dim> loss = loss_.value_or(Loss<Dim>{});
   archive.value("id", loss.particle.id);
   archive.values("position", {loss.particle.position.data(), std::size_t(Dim)});
   archive.values("velocity", {loss.particle.velocity.data(), std::size_t(Dim)});

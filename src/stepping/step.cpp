@@ -6,14 +6,14 @@ template <int Dim>
 void Step<Dim>::update_velocity(double dt)
 {
   for (NodeFields<Dim>& field : fields) {
-    slots.loads.apply(grid(), field, time(), dt);
+    slots.loads.apply(grid(), grid().runs(), field, time(), dt);
     field.update_velocity(grid().runs(), dt);
   }
   for (const auto& contact : slots.contacts) contact->exchange_momentum(grid(), fields, time(), dt);
   for (NodeFields<Dim>& field : fields) {
     for (const auto& condition : slots.conditions)
       condition->constrain_updated(grid(), field, time(), dt);
-    slots.loads.book(grid(), field, dt);
+    slots.loads.book(grid(), grid().runs(), field, dt);
   }
   if (extras.refinements > 0) refine_velocity(dt);
 }
@@ -31,7 +31,7 @@ void Step<Dim>::refine_velocity(double dt)
       for (const auto& condition : slots.conditions)
         condition->constrain_updated(grid(), field, time(), dt);
       field.end_refinement(grid().runs());
-      slots.loads.book_residual(grid(), field, dt);
+      slots.loads.book_residual(grid(), grid().runs(), field, dt);
     }
   }
 }

@@ -87,6 +87,32 @@ void UpdatedLagrangian<Dim>::begin_loading(const Ownership<Dim>& ownership)
 }
 
 template <int Dim>
+Carried<Dim> UpdatedLagrangian<Dim>::carried() const
+{
+  Carried<Dim> carried;
+  for (const Body<Dim>& body : bodies()) {
+    const ColumnGroup& columns = body.particles.motion();
+    const int velocity = columns.find("velocity"), mass = columns.find("mass");
+    Lanes kinetic = 0, momentum[Dim];
+    for (Lanes& component : momentum) component = 0;
+    for (LocalIndex b = 0; b < body.particles.blocks(); ++b) {
+      const double* motion = columns.block(b);
+      const Lanes m = load(motion + mass * lane_count);
+      Lanes squared = 0;
+      for (int d = 0; d < Dim; ++d) {
+        const Lanes v = load(motion + (velocity + d) * lane_count);
+        momentum[d] += m * v;
+        squared += v * v;
+      }
+      kinetic += 0.5 * m * squared;
+    }
+    carried.kinetic_energy += stdx::reduce(kinetic);
+    for (int d = 0; d < Dim; ++d) carried.momentum[d] += stdx::reduce(momentum[d]);
+  }
+  return carried;
+}
+
+template <int Dim>
 Counters UpdatedLagrangian<Dim>::counters_of_exchange() const
 {
   return {exchange_->migrated(), exchange_->messages(), exchange_->bytes_sent(),

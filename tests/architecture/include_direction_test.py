@@ -11,8 +11,9 @@ MAY_INCLUDE = {folder: set(others.split()) | {folder} for folder, others in {
     "conditions": "core particles grid materials transfer", "parallel": PHYSICS, "scene": PHYSICS,
     "micrograph": "core scene", "output": "core scene parallel", "analysis": "core output",
     "stepping": PHYSICS + " parallel",
-    "simulation": PHYSICS + " parallel stepping scene micrograph output analysis",
-    "main.cpp": PHYSICS + " parallel stepping scene micrograph output analysis simulation"}.items()}
+    "lagrangian": PHYSICS + " parallel stepping",
+    "simulation": PHYSICS + " parallel stepping lagrangian scene micrograph output analysis",
+    "main.cpp": PHYSICS + " parallel stepping lagrangian scene micrograph output analysis simulation"}.items()}
 MPI, TOOLS = "parallel/ output/", "scene/ micrograph/draw_wood analysis/mpm_curve main.cpp"
 WALLS = {r"petsc\w*\.h": "parallel/", r"mpi\.h": MPI, r"metis\.h": "parallel/",
          r"(hdf5|H5\w+)\.h": "output/hdf5_file", r"yaml-cpp/.*": "scene/ micrograph/anatomy",

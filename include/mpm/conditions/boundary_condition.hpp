@@ -2,6 +2,7 @@
 /// Velocity constraints on nodes and the reactions they meet with.
 
 #include <mpm/conditions/reaction.hpp>
+#include <mpm/grid/mesh_nodes.hpp>
 #include <mpm/grid/node_fields.hpp>
 #include <mpm/transfer/scheme.hpp>
 
@@ -20,6 +21,12 @@ class BoundaryCondition {
   /// Sets the velocities whose gradient is taken.
   virtual void constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
                                   double dt) = 0;
+
+  /// For nodes that move with a body: sets the updated velocities of those that are held, and of
+  /// those that the step from `time` to `time + dt` would take behind a face, and books the
+  /// reaction.
+  virtual void stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
+                    double dt) = 0;
 
   /// Returns what was booked and starts again from zero.
   Reaction<Dim> take_reaction() { return reaction_.take(); }
@@ -40,6 +47,20 @@ class BoundaryCondition {
     const double impulse = fields.mass_of(node) * (after - free_velocity);
     reaction_.impulse[component] += impulse;
     reaction_.work += impulse * 0.5 * (before + after);
+  }
+
+  /// One component of one node that moves with a body gets this velocity. What it brought along
+  /// beyond it is lost, as in an impact: the work is the one done on the node.
+  void drive(NodeFields<Dim>& fields, LocalIndex node, bool owned, int component, double velocity)
+  {
+    double* u = fields.updated_of(node);
+    const double impulse = fields.mass_of(node) * (velocity - u[component]);
+    const double before = u[component] - u[Dim + component];
+    u[component] = velocity;
+    u[Dim + component] = velocity - before;
+    if (!owned) return;
+    reaction_.impulse[component] += impulse;
+    reaction_.work += impulse * 0.5 * (before + velocity);
   }
 
  private:

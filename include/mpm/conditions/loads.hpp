@@ -24,14 +24,19 @@ class Loads {
   /// P2G of the forces on particles: a partial sum, as other node values.
   void scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfer,
                const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time) const;
+  /// The forces at `time` on the particles of one block of a body, N.
+  void add_to_particles(const Body<Dim>& body, LocalIndex block, double time,
+                        Lanes (&force)[Dim]) const;
+  using Runs = std::span<const NodeRun<Dim>>;
   /// Adds the forces on nodes, and all load forces to the nodes' force.
-  void apply(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time, double dt) const;
+  void apply(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields, double time,
+             double dt) const;
   /// Once the nodes' velocities of the step are known: impulse f dt, and work f dt times the mean
   /// velocity of the step; of owned nodes.
-  void book(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt);
+  void book(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields, double dt);
 
   /// Work on the residual velocity that a refinement (NodeFields::refine) has added.
-  void book_residual(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt);
+  void book_residual(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields, double dt);
 
   Reaction<Dim> take_reaction() { return reaction_.take(); }
   double largest_step() const;
@@ -39,7 +44,7 @@ class Loads {
 
  private:
   template <class Visit>
-  void for_each_impulse(const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double dt,
+  void for_each_impulse(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields, double dt,
                         Visit visit);
 
   std::vector<std::unique_ptr<Load<Dim>>> loads_;

@@ -23,6 +23,7 @@ class RigidBody final : public BoundaryCondition<Dim> {
                          double dt) override;
   void constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
                           double dt) override;
+  void stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, double time, double dt) override;
 
  private:
   void find_nodes(const Nodes<Dim>& nodes, double time);

@@ -8,8 +8,9 @@
 namespace mpm {
 
 enum class WallGrip {
-  stick,  ///< all components follow the wall
-  slip    ///< the normal one only: also a plane of symmetry
+  stick,   ///< all components follow the wall
+  slip,    ///< the normal one only: also a plane of symmetry
+  contact  ///< the normal one, while the wall is pushed
 };
 
 struct WallPlacement {
@@ -30,6 +31,8 @@ class RigidWall final : public BoundaryCondition<Dim> {
                          double dt) override;
   void constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
                           double dt) override;
+
+  void stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, double time, double dt) override;
 
   const WallPlacement& placement() const { return placement_; }
   const WallMotion& motion() const { return motion_; }
@@ -56,6 +59,8 @@ class RigidWall final : public BoundaryCondition<Dim> {
   WallGrip grip_;
   std::optional<Found> found_for_;
   std::vector<LocalIndex> found_;  ///< nodes at the face and behind it
+  /// Nodes of a body that stood at the face at time 0.
+  std::optional<std::vector<LocalIndex>> held_;
 };
 
 }  // namespace mpm

@@ -65,15 +65,13 @@ class GridTopology final : public Nodes<Dim> {
   std::size_t bytes() const { return owned_.size() + touched_.size() + kept_.size(); }
 
  private:
-  static GlobalIndex new_listing();
-
   GridGeometry<Dim> geometry_;
   IndexBox<Dim> local_;
   IndexVec<Dim> stride_;
   LocalIndex size_;
   std::vector<char> owned_, touched_, kept_;
   std::vector<NodeRun<Dim>> runs_;
-  GlobalIndex listing_ = new_listing();
+  GlobalIndex listing_ = Nodes<Dim>::new_listing();
 };
 
 }  // namespace mpm

@@ -37,6 +37,7 @@ class NodeFields {
   struct Needs {
     bool remap = false;       ///< re-mapped momentum, also in refinements and means
     bool load_force = false;  ///< force from outside, for its work
+    bool gradient = true;     ///< velocity whose gradient particles take
   };
 
   /// `mass_cut`, kg: nodes with less take no part.
@@ -55,6 +56,8 @@ class NodeFields {
   void add_load_force(Runs runs);
   /// v = mv / m, dv = dt f / m: `updated` becomes {v + dv, dv}.
   void update_velocity(Runs runs, double dt);
+  /// mv = m v with the updated velocity: for nodes that keep it.
+  void carry_momentum(Runs runs);
   /// The updated velocity v of the lumped mass matrix is the first approximation v_1 of the one of
   /// the full matrix, and the first residual: r_1 = v_1, which takes the place of the increment.
   /// With `before_forces` r_1 = v_1 - dv, and the increment stays what the lumped matrix says.
@@ -115,7 +118,7 @@ class NodeFields {
   LaneVector<double> updated;            ///< {v after the step, its increment dt a}
   LaneVector<double> remapped_momentum;  ///< empty where it is not needed
   LaneVector<double> load_force;         ///< [N * Dim], empty where there are no loads
-  LaneVector<double> gradient_velocity;  ///< what the velocity gradient is taken of
+  LaneVector<double> gradient_velocity;  ///< what the velocity gradient is taken of, or empty
 
  private:
   double mass_cut_;

@@ -39,6 +39,13 @@ class Nodes {
   virtual const Vec<Dim>& spacing() const = 0;
   /// m, after which an axis begins again; 0 for one that does not.
   virtual Vec<Dim> period() const = 0;
+
+ protected:
+  static GlobalIndex new_listing()
+  {
+    static GlobalIndex last = 0;
+    return ++last;
+  }
 };
 
 }  // namespace mpm

@@ -7,7 +7,7 @@
 namespace mpm {
 
 /// Places of corners, m, or forces on them, N. Bit 0 of the corner: upper along x, bit 1: along y.
-struct Corners {
+struct CellCorners {
   Lanes x[4], y[4];
 };
 
@@ -31,7 +31,7 @@ struct CellDeformation {
   Lanes
       bending[2];  ///< b = F^-1 a, 1/m: fibres along axis j are strained by b_j times the distance
 
-  [[gnu::always_inline]] CellDeformation(const Corners& at, const CellFrame& frame)
+  [[gnu::always_inline]] CellDeformation(const CellCorners& at, const CellFrame& frame)
   {
     const Lanes(*const place[2])[4] = {&at.x, &at.y};
     Lanes twist[2];
@@ -52,7 +52,7 @@ struct CellDeformation {
 /// On the corners, from V0 tau {xx, yy, xy} at the centre, J, and the moments m_j = dW/db_j, J m:
 ///   k = F^-T m ;  S = V0 tau F^-T - k (x) b ;  f_i = - S grad0 N_i - k eps_i / (hx hy)
 /// with eps = +, -, -, + the corners' signs in the mode X Y. The gradient of an energy W(F) + W(b).
-[[gnu::always_inline]] inline Corners corner_forces(const CellDeformation& deformation,
+[[gnu::always_inline]] inline CellCorners corner_forces(const CellDeformation& deformation,
                                                     const Lanes (&force_stress)[3],
                                                     const Lanes (&moment)[2],
                                                     const CellFrame& frame)
@@ -63,7 +63,7 @@ struct CellDeformation {
   const Lanes g[4] = {f[3] * inverse, -f[2] * inverse, -f[1] * inverse, f[0] * inverse};
   const Lanes k[2] = {g[0] * moment[0] + g[2] * moment[1], g[1] * moment[0] + g[3] * moment[1]};
   const Lanes tau[2][2] = {{force_stress[0], force_stress[2]}, {force_stress[2], force_stress[1]}};
-  Corners force;
+  CellCorners force;
   for (int i = 0; i < 2; ++i) {
     const Lanes along_x = tau[i][0] * g[0] + tau[i][1] * g[1] - k[i] * deformation.bending[0];
     const Lanes along_y = tau[i][0] * g[2] + tau[i][1] * g[3] - k[i] * deformation.bending[1];
@@ -76,6 +76,68 @@ struct CellDeformation {
     out[3] = -sx - sy - mode;
   }
   return force;
+}
+
+/// A cell's corner whose edges span less than this of their area at rest is held open.
+inline constexpr double least_corner = 0.2;
+
+namespace location_cell_detail {
+
+/// Of corner k: the next ones along the boundary, counter-clockwise and clockwise.
+inline constexpr int next[4] = {1, 3, 0, 2}, last[4] = {2, 0, 3, 1};
+
+struct CornerEdges {
+  Lanes ux, uy, wx, wy;  ///< to the next corner and to the last, m
+
+  [[gnu::always_inline]] CornerEdges(const CellCorners& at, int k)
+      : ux(at.x[next[k]] - at.x[k]),
+        uy(at.y[next[k]] - at.y[k]),
+        wx(at.x[last[k]] - at.x[k]),
+        wy(at.y[last[k]] - at.y[k])
+  {
+  }
+  /// By how much they span too little, of the area at rest.
+  Lanes gap(const CellFrame& frame) const
+  {
+    return stdx::max(least_corner - (ux * wy - uy * wx) * frame.inverse_area, Lanes(0.0));
+  }
+};
+
+}  // namespace location_cell_detail
+
+/// sum over the corners of stiffness (least_corner - a)^2 / 2, a = span of the corner's edges over
+/// that at rest: 0 for every affine deformation with J > least_corner. One-point cells without it
+/// tangle where they are pressed from all sides. `stiffness`, J.
+inline Lanes corner_energy(const CellCorners& at, const Lanes& stiffness, const CellFrame& frame)
+{
+  Lanes energy = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    const Lanes gap = location_cell_detail::CornerEdges(at, k).gap(frame);
+    energy += 0.5 * stiffness * gap * gap;
+  }
+  return energy;
+}
+
+/// Adds minus its derivative.
+[[gnu::always_inline]] inline void add_corner_forces(const CellCorners& at, const Lanes& stiffness,
+                                                     const CellFrame& frame, CellCorners& force)
+{
+  using namespace location_cell_detail;
+  LaneMask narrow(false);
+  for (int k = 0; k < 4; ++k) narrow = narrow || CornerEdges(at, k).gap(frame) > 0.0;
+  if (stdx::none_of(narrow)) [[likely]]
+    return;
+  for (int k = 0; k < 4; ++k) {
+    const CornerEdges edges(at, k);
+    const Lanes push = stiffness * frame.inverse_area * edges.gap(frame);
+    const int p = next[k], q = last[k];
+    force.x[p] += push * edges.wy;
+    force.y[p] -= push * edges.wx;
+    force.x[q] -= push * edges.uy;
+    force.y[q] += push * edges.ux;
+    force.x[k] -= push * (edges.wy - edges.uy);
+    force.y[k] -= push * (edges.ux - edges.wx);
+  }
 }
 
 }  // namespace mpm

@@ -20,6 +20,14 @@ struct IsotropicConstants {
     return plane == PlaneAssumption::strain ? wave_modulus()
                                             : youngs_modulus / (1 - poisson_ratio * poisson_ratio);
   }
+  /// Of fibres whose cross-section is free to curve in the plane: E / (1 - nu^2) where the third
+  /// direction holds them, or E.
+  double bending_modulus(PlaneAssumption plane) const
+  {
+    return plane == PlaneAssumption::strain
+               ? youngs_modulus / (1 - poisson_ratio * poisson_ratio)
+               : youngs_modulus;
+  }
 };
 
 /// Von Mises yield with linear hardening (0: perfectly plastic), Pa.

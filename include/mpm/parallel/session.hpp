@@ -36,6 +36,10 @@ void largest_over_ranks(MPI_Comm comm, std::span<double> values);
 /// All ranks' values one after the other.
 std::vector<double> joined_over_ranks(MPI_Comm comm, std::span<const double> values);
 
+/// `out`: this rank's values for each rank. Returns each rank's for this one.
+std::vector<std::vector<double>> traded_over_ranks(MPI_Comm comm,
+                                                   const std::vector<std::vector<double>>& out);
+
 /// Runs `action` on every rank; if it throws anywhere, every rank throws the error of the lowest
 /// rank that failed. Collective: keeps ranks out of collectives that a failed one never reaches.
 /// `action` itself must not contain collectives that some ranks could miss.

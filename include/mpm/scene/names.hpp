@@ -44,11 +44,16 @@ inline constexpr auto names_of<DecompositionKind> =
                                              {DecompositionKind::cuts, "cuts"},
                                              {DecompositionKind::metis, "metis"}});
 template <>
+inline constexpr auto names_of<FormulationKind> = std::to_array<Named<FormulationKind>>(
+    {{FormulationKind::updated_lagrangian, "updated_lagrangian"},
+     {FormulationKind::total_lagrangian, "total_lagrangian"}});
+template <>
 inline constexpr auto names_of<Recovery> =
     std::to_array<Named<Recovery>>({{Recovery::stop, "stop"}, {Recovery::retry, "retry"}});
 template <>
 inline constexpr auto names_of<Grip> = std::to_array<Named<Grip>>({{Grip::stick, "stick"},
-                                                                   {Grip::slip, "slip"}});
+                                                                   {Grip::slip, "slip"},
+                                                                   {Grip::contact, "contact"}});
 template <>
 inline constexpr auto names_of<Field> =
     std::to_array<Named<Field>>({{Field::velocity, "velocity"},

@@ -109,7 +109,13 @@ enum class Recovery {
 
 enum class DecompositionKind { automatic, cuts, metis };
 
+enum class FormulationKind { updated_lagrangian, total_lagrangian };
+
 struct Numerics {
+  FormulationKind formulation = FormulationKind::updated_lagrangian;
+  /// Of total_lagrangian: across a flush face pressure is 2 of it times the modulus of the fastest
+  /// wave times the depth over the size of a location; 0: none.
+  double contact_stiffness = 2;
   Plane plane = Plane::strain;  ///< of a scene in the plane
   double thickness = 1;         ///< m, out of the plane
   OneOf<ShapeRow> shape_function = "gimp";
@@ -131,7 +137,7 @@ struct Numerics {
 
 /// Both sides of an axis are periodic or none.
 using Lateral = OneOf<SideRow>;
-enum class Grip { stick, slip };
+enum class Grip { stick, slip, contact };
 
 struct LoadCell {
   int cells = 3;                ///< thickness in grid cells

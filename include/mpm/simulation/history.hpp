@@ -29,6 +29,9 @@ struct HistoryLine {
   /// |momentum gained - impulse from outside| / (sum of the impulses' sizes + momentum at the
   /// start): rounding, unless something is lost.
   double momentum_error = 0;
+  double contact_energy = 0;                         ///< J
+  double overlapped_area = 0;                        ///< m^2
+  GlobalIndex contact_pairs = 0;                     ///< of cells that touch
   double time_step = 0;                              ///< s
   GlobalIndex behind_piston = 0, outside_walls = 0;  ///< particles
 
@@ -36,9 +39,9 @@ struct HistoryLine {
   double stress() const { return 0.5 * (piston_stress + edge_stress); }
 };
 
-/// What a history can have: stresses with a piston, one more with a load cell.
+/// What a history can have: stresses with a piston, one more with a load cell; contact of bodies.
 struct HistoryKind {
-  bool piston = false, load_cell = false;
+  bool piston = false, load_cell = false, contact = false;
 };
 std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind);
 std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind);
@@ -75,16 +78,16 @@ class History {
   MPI_Comm comm() const { return formulation_.decomposition().comm(); }
   void take_reactions();
   void begin_line(HistoryLine& line);
-  double surplus(const ParticleSums<Dim>& sums) const;
-  void balance(HistoryLine& line, const ParticleSums<Dim>& sums);
-  void check(const ParticleSums<Dim>& sums, const HistoryLine& line) const;
+  double surplus(const Sums<Dim>& sums) const;
+  void balance(HistoryLine& line, const Sums<Dim>& sums);
+  void check(const Sums<Dim>& sums, const HistoryLine& line) const;
   void count_outside(HistoryLine& line);
   void warn_of(const Penetration& found, const char* what) const;
 
   Formulation<Dim>& formulation_;
   std::optional<Apparatus<Dim>> apparatus_;
   std::vector<HistoryLine> lines_;
-  ParticleSums<Dim> start_;
+  Sums<Dim> start_;
   std::optional<double> stress_work_before_;  ///< J, before the last step
   double external_work_ = 0;
   Vec<Dim> impulse_ = Vec<Dim>::Zero();  ///< N s, from outside

@@ -2,16 +2,17 @@
 /// Scalars of the whole run at one moment: energies, counts, what passed a wall.
 
 #include <mpm/conditions/rigid_wall.hpp>
-#include <mpm/materials/body.hpp>
 #include <mpm/parallel/session.hpp>
+#include <mpm/stepping/formulation.hpp>
 
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace mpm {
 
 template <int Dim>
-struct ParticleSums {
+struct Sums {
   GlobalIndex particles = 0;
   GlobalIndex id_sum = 0;
   double mass = 0;                       ///< kg
@@ -19,14 +20,18 @@ struct ParticleSums {
   double elastic_energy = 0;             ///< J
   double plastic_work = 0;               ///< J
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
+  std::optional<typename Carried<Dim>::OfContact> contact{};
 
-  /// Work of the stresses, stored or dissipated, J.
-  double stress_work() const { return elastic_energy + plastic_work; }
+  /// Work of the stresses and of contact, stored or dissipated, J.
+  double stress_work() const
+  {
+    return elastic_energy + plastic_work + (contact ? contact->energy : 0.0);
+  }
 };
 
 /// Over all ranks. Collective.
 template <int Dim>
-ParticleSums<Dim> sum_particles(MPI_Comm comm, const std::vector<Body<Dim>>& bodies);
+Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation);
 
 /// Particles behind the face of a rigid wall.
 struct Penetration {

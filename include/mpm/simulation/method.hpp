@@ -13,6 +13,8 @@ namespace mpm {
 /// Of its shape function, scheme and update order together.
 std::optional<double> stable_cfl_of(const scene::Numerics& numerics);
 double default_cfl(const scene::Numerics& numerics);
+/// When a step leaves the stresses, counted from the moment of the velocities, in steps.
+double stress_moment_of(const scene::Numerics& numerics);
 StepExtras extras_of(const scene::Numerics& numerics);
 /// What the reactions of walls are measured from.
 ReactionBook reaction_book(const scene::Numerics& numerics);
@@ -27,6 +29,11 @@ double expected_steps(const scene::Scene& scene, const Layout<Dim>& layout);
 template <int Dim>
 std::unique_ptr<Transfer<Dim>> make_transfer(const scene::Numerics& numerics,
                                              int particles_per_cell);
+
+/// Columns of the motion of particles of a law, as the formulation needs them.
+template <int Dim>
+std::vector<Column> motion_columns(const scene::Numerics& numerics, int particles_per_cell,
+                                   const Law<Dim>& law);
 
 /// Cuts across the piston's travel come first.
 template <int Dim>

@@ -3,8 +3,9 @@
 
 #include <mpm/conditions/rigid_wall.hpp>
 #include <mpm/simulation/layout.hpp>
-#include <mpm/stepping/updated_lagrangian.hpp>
+#include <mpm/stepping/formulation.hpp>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,7 +32,8 @@ struct Apparatus {
 /// has particles, then the load cell.
 template <int Dim>
 struct Model {
-  typename UpdatedLagrangian<Dim>::Setup setup;
+  std::vector<Body<Dim>> bodies;
+  Slots<Dim> slots{};
   std::optional<Apparatus<Dim>> apparatus;
 };
 
@@ -40,12 +42,19 @@ template <int Dim>
 Model<Dim> make_model(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
                       const Layout<Dim>& layout, const Decomposition<Dim>& decomposition);
 
+/// What steps the model, which it takes up. Collective.
+template <int Dim>
+std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
+                                                   const Layout<Dim>& layout,
+                                                   const Decomposition<Dim>& decomposition,
+                                                   Model<Dim> model);
+
 template <int Dim>
 Loads<Dim> loads_of(const scene::Scene& scene);
 
 /// Columns of the particles of a law, with those that loads and the exact solution need.
 template <int Dim>
-ParticleStore empty_store(const scene::Scene& scene, const Transfer<Dim>& transfer,
-                          const Law<Dim>& law, const Loads<Dim>& loads);
+ParticleStore empty_store(const scene::Scene& scene, int particles_per_cell, const Law<Dim>& law,
+                          const Loads<Dim>& loads);
 
 }  // namespace mpm

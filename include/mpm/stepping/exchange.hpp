@@ -5,6 +5,7 @@
 #include <mpm/core/archive.hpp>
 #include <mpm/parallel/halo.hpp>
 #include <mpm/parallel/migration.hpp>
+#include <mpm/stepping/loss.hpp>
 #include <mpm/transfer/transfer.hpp>
 
 #include <functional>
@@ -13,12 +14,6 @@
 #include <vector>
 
 namespace mpm {
-
-/// The step that is being done, counted from 1, and its start.
-struct Moment {
-  GlobalIndex step;
-  double time;  ///< s
-};
 
 /// In every pass the particles near other ranks come first, and those near walls at which shape
 /// functions end; the rest are done while the sums on shared nodes, and the particles that leave,
@@ -47,14 +42,8 @@ class Exchange {
   /// Particles in the order of their nodes; active nodes. What left activity must be cleared.
   std::vector<LocalIndex> sort(std::vector<Body<Dim>>& bodies);
 
-  /// The first particle of this rank that was lost, and when: it does no more passes until all
-  /// ranks stop.
-  struct Loss {
-    LostParticle<Dim> particle;
-    std::string body;
-    Moment moment;
-  };
-  const std::optional<Loss>& loss() const { return loss_; }
+  /// After one this rank does no more passes until all ranks stop.
+  const std::optional<Loss<Dim>>& loss() const { return loss_; }
   /// Unless there is one already.
   void note_loss(const Body<Dim>& body, const LostParticle<Dim>& lost, const Moment& moment);
 
@@ -95,7 +84,7 @@ class Exchange {
   /// Stencils with this first node may come to touch shared nodes, or walls at which they end.
   std::vector<char> near_;
 
-  std::optional<Loss> loss_;
+  std::optional<Loss<Dim>> loss_;
   GlobalIndex migrated_ = 0;
   double largest_speed_ = 0;
   double moved_since_sort_ = 0, moved_last_ = 0;  ///< m, bounds on any particle's motion

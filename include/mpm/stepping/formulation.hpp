@@ -1,6 +1,6 @@
 #pragma once
-/// What the run around it may know of a formulation: the one that is there keeps its weights in the
-/// present configuration (updated_lagrangian.hpp); another may keep them in the reference one.
+/// What the run around it may know of a formulation: one keeps its weights in the present
+/// configuration (updated_lagrangian.hpp), another in the reference one (total_lagrangian.hpp).
 
 #include <mpm/core/archive.hpp>
 #include <mpm/materials/body.hpp>
@@ -8,6 +8,7 @@
 #include <mpm/stepping/slots.hpp>
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace mpm {
@@ -37,6 +38,21 @@ struct Counters {
   void archive(Archive& archive);
 };
 
+/// What particles do not carry themselves, on this rank, at present.
+template <int Dim>
+struct Carried {
+  double kinetic_energy = 0;             ///< J
+  Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
+  double elastic_energy = 0;             ///< J, beside that of the particles' laws
+  /// Of the contact of bodies with themselves and others, where there is one.
+  struct OfContact {
+    double energy = 0;           ///< J
+    double overlapped_area = 0;  ///< m^2; in space volume, m^3
+    GlobalIndex pairs = 0;       ///< of cells that touch; each counts for either cell
+  };
+  std::optional<OfContact> contact{};
+};
+
 /// Steps bodies of particles on this rank. All members but the plain look-ups are collective.
 template <int Dim>
 class Formulation {
@@ -54,9 +70,12 @@ class Formulation {
 
   virtual double time() const = 0;  ///< s
   virtual GlobalIndex steps() const = 0;
+  /// Their particles as they are now.
   virtual const std::vector<Body<Dim>>& bodies() const = 0;
+  virtual LocalIndex active_nodes() const = 0;  ///< of this rank; shared ones count on each
   virtual const Decomposition<Dim>& decomposition() const = 0;
 
+  virtual Carried<Dim> carried() const = 0;
   /// When a step leaves the stresses, counted from the moment of the velocities, in steps.
   virtual double stress_moment() const = 0;
   /// Loads, contact, conditions and transport.

@@ -34,6 +34,8 @@ class UpdatedLagrangian final : public Formulation<Dim> {
   GlobalIndex steps() const override { return steps_; }
   const std::vector<Body<Dim>>& bodies() const override { return setup_.bodies; }
   const Decomposition<Dim>& decomposition() const override { return exchange_->decomposition(); }
+  LocalIndex active_nodes() const override { return grid().active_nodes(); }
+  Carried<Dim> carried() const override;
   double stress_moment() const override { return setup_.order->stress_moment; }
   Slots<Dim>& slots() override { return setup_.slots; }
   double largest_step() const override { return setup_.slots.largest_step(); }
@@ -56,7 +58,6 @@ class UpdatedLagrangian final : public Formulation<Dim> {
   void sort_and_activate();
   Step<Dim> next_step();
   Counters counters_of_exchange() const;
-  [[noreturn]] void stop(GlobalIndex first_loss);
 
   Setup setup_;
   StepFunction<Dim> step_;

@@ -27,9 +27,9 @@ Places at_rest()
   return places;
 }
 
-Corners in_all_lanes(const Places& places)
+CellCorners in_all_lanes(const Places& places)
 {
-  Corners corners;
+  CellCorners corners;
   for (int k = 0; k < 4; ++k) {
     corners.x[k] = places(0, k);
     corners.y[k] = places(1, k);
@@ -71,7 +71,7 @@ Bent bend_to(const Places& places)
     moment[j] = stiffness(j) * deformation.bending[j];
     bent.energy += 0.5 * stiffness(j) * deformation.bending[j][0] * deformation.bending[j][0];
   }
-  const Corners force = corner_forces(deformation, tau, moment, frame);
+  const CellCorners force = corner_forces(deformation, tau, moment, frame);
   for (int k = 0; k < 4; ++k) bent.force.col(k) << force.x[k][0], force.y[k][0];
   return bent;
 }

@@ -1,0 +1,54 @@
+#pragma once
+/// Nodes that belong to a body and move with it.
+
+#include <mpm/core/lane_vector.hpp>
+#include <mpm/grid/grid_topology.hpp>
+#include <mpm/grid/node_fields.hpp>
+
+#include <array>
+#include <vector>
+
+namespace mpm {
+
+/// Corners of a lattice of locations, which stand on the lattice at time 0.
+template <int Dim>
+class MeshNodes final : public Nodes<Dim> {
+ public:
+  /// `corners` of the lattice, `size` of a location, m, `period` in locations, 0 for axes without.
+  MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> owned, const Vec<Dim>& size,
+            const IndexVec<Dim>& period);
+
+  LocalIndex size() const override { return LocalIndex(owned_.size()); }
+  void find_within(const Region<Dim>& region, std::vector<LocalIndex>& nodes) const override;
+  GlobalIndex listing() const override { return listing_; }
+  Vec<Dim> position(LocalIndex node) const override;
+  bool is_owned(LocalIndex node) const override { return owned_[std::size_t(node)]; }
+  const Vec<Dim>& spacing() const override { return location_size_; }
+  Vec<Dim> period() const override;
+
+  /// m, at time 0.
+  double rest(LocalIndex node, int axis) const
+  {
+    return corners_[std::size_t(node)][axis] * location_size_[axis];
+  }
+  const IndexVec<Dim>& corner(LocalIndex node) const { return corners_[std::size_t(node)]; }
+  /// m, of all nodes.
+  const double* along(int axis) const { return places_[std::size_t(axis)].data(); }
+  /// x += dt v with the updated velocities. Returns the largest component of them, m/s.
+  double move(const NodeFields<Dim>& fields, double dt);
+
+  /// All of them.
+  NodeRun<Dim> run() const { return {0, size(), IndexVec<Dim>::Zero()}; }
+  void archive(Archive& archive);
+  std::size_t bytes() const;
+
+ private:
+  std::vector<IndexVec<Dim>> corners_;
+  std::vector<char> owned_;
+  Vec<Dim> location_size_;
+  IndexVec<Dim> period_;
+  std::array<LaneVector<double>, std::size_t(Dim)> places_;
+  GlobalIndex listing_;
+};
+
+}  // namespace mpm

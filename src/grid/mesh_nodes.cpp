@@ -1,0 +1,77 @@
+#include <mpm/grid/mesh_nodes.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace mpm {
+
+template <int Dim>
+MeshNodes<Dim>::MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> owned,
+                          const Vec<Dim>& size, const IndexVec<Dim>& period)
+    : corners_(std::move(corners)),
+      owned_(std::move(owned)),
+      location_size_(size),
+      period_(period),
+      listing_(Nodes<Dim>::new_listing())
+{
+  for (int d = 0; d < Dim; ++d) {
+    auto& places = places_[std::size_t(d)];
+    places.resize(owned_.size());
+    for (LocalIndex node = 0; node < this->size(); ++node) places[std::size_t(node)] = rest(node, d);
+  }
+}
+
+template <int Dim>
+Vec<Dim> MeshNodes<Dim>::position(LocalIndex node) const
+{
+  Vec<Dim> position;
+  for (int d = 0; d < Dim; ++d) position[d] = along(d)[node];
+  return position;
+}
+
+template <int Dim>
+Vec<Dim> MeshNodes<Dim>::period() const
+{
+  return period_.template cast<double>().cwiseProduct(location_size_);
+}
+
+template <int Dim>
+void MeshNodes<Dim>::find_within(const Region<Dim>& region, std::vector<LocalIndex>& nodes) const
+{
+  nodes.clear();
+  for (LocalIndex node = 0; node < size(); ++node)
+    if (region.contains(position(node))) nodes.push_back(node);
+}
+
+template <int Dim>
+double MeshNodes<Dim>::move(const NodeFields<Dim>& fields, double dt)
+{
+  double fastest = 0;
+  const double* u = fields.updated.data();
+  for (LocalIndex node = 0; node < size(); ++node, u += NodeFields<Dim>::record_width)
+    for (int d = 0; d < Dim; ++d) {
+      places_[std::size_t(d)][std::size_t(node)] += dt * u[d];
+      fastest = std::max(fastest, std::abs(u[d]));
+    }
+  listing_ = Nodes<Dim>::new_listing();
+  return fastest;
+}
+
+template <int Dim>
+void MeshNodes<Dim>::archive(Archive& archive)
+{
+  for (int d = 0; d < Dim; ++d) archive.values("along_" + std::to_string(d), places_[std::size_t(d)]);
+  if (archive.is_loading()) listing_ = Nodes<Dim>::new_listing();
+}
+
+template <int Dim>
+std::size_t MeshNodes<Dim>::bytes() const
+{
+  return owned_.size() * (sizeof(char) + sizeof(IndexVec<Dim>) + Dim * sizeof(double));
+}
+
+template class MeshNodes<2>;
+template class MeshNodes<3>;
+
+}  // namespace mpm

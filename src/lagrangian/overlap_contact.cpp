@@ -1,0 +1,331 @@
+#include <mpm/lagrangian/overlap.hpp>
+#include <mpm/lagrangian/overlap_contact.hpp>
+#include <mpm/parallel/session.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mpm {
+
+namespace {
+
+/// Lower x, lower y, upper x, upper y, m.
+using Box = std::array<double, 4>;
+
+/// Whether boxes are nearer than `distance`.
+bool meet(const Box& a, const Box& b, double distance)
+{
+  return a[0] < b[2] + distance && b[0] < a[2] + distance && a[1] < b[3] + distance &&
+         b[1] < a[3] + distance;
+}
+
+Box box_of(const double* corners)
+{
+  const auto [left, right] = std::minmax({corners[0], corners[1], corners[2], corners[3]});
+  const auto [lower, upper] = std::minmax({corners[4], corners[5], corners[6], corners[7]});
+  return {left, lower, right, upper};
+}
+
+}  // namespace
+
+OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Surface> cells, const Vec<2>& size,
+                               const IndexVec<2>& period)
+    : comm_(comm),
+      ghosts_(comm),
+      surface_(std::move(cells)),
+      size_(size),
+      period_(period),
+      area_(size[0] * size[1])
+{
+}
+
+void OverlapContact::take_places(const MeshNodes<2>& nodes)
+{
+  const double *x = nodes.along(0), *y = nodes.along(1);
+  for (LocalIndex c = 0; c < cells(); ++c) {
+    double* to = corners_of(c);
+    for (std::size_t k = 0; k < 4; ++k) {
+      to[k] = x[surface_[std::size_t(c)].nodes[k]];
+      to[k + 4] = y[surface_[std::size_t(c)].nodes[k]];
+    }
+  }
+}
+
+bool OverlapContact::are_neighbours(const IndexVec<2>& a, const IndexVec<2>& b) const
+{
+  for (int d = 0; d < 2; ++d) {
+    LocalIndex apart = std::abs(a[d] - b[d]);
+    if (period_[d] > 0) apart = std::min(apart, period_[d] - apart);
+    if (apart > 1) return false;
+  }
+  return true;
+}
+
+void OverlapContact::find_boxes()
+{
+  boxes_.resize(stiffness_.size());
+  for (std::size_t c = 0; c < stiffness_.size(); ++c)
+    boxes_[c] = box_of(&corners_[c * corner_values]);
+}
+
+void OverlapContact::find_pairs(const MeshNodes<2>& nodes, double skin)
+{
+  skin_ = skin;
+  for (int d = 0; d < 2; ++d)
+    places_then_[std::size_t(d)].assign(nodes.along(d), nodes.along(d) + nodes.size());
+  const std::size_t own = surface_.size();
+  corners_.resize(own * corner_values);
+  stiffness_.resize(own);
+  locations_.resize(own);
+  for (std::size_t c = 0; c < own; ++c) {
+    stiffness_[c] = surface_[c].stiffness;
+    locations_[c] = surface_[c].location;
+  }
+  take_places(nodes);
+  find_boxes();
+  std::vector<Ghosts::Peer> peers = add_candidates(skin);
+  find_boxes();
+  list_pairs(skin);
+  keep_needed(std::move(peers));
+  pressure_.assign(stiffness_.size(), 0.0);
+}
+
+double OverlapContact::largest_way(const MeshNodes<2>& nodes) const
+{
+  double squared = 0;
+  const double *x = nodes.along(0), *y = nodes.along(1);
+  for (std::size_t n = 0; n < places_then_[0].size(); ++n) {
+    const double dx = x[n] - places_then_[0][n], dy = y[n] - places_then_[1][n];
+    squared = std::max(squared, dx * dx + dy * dy);
+  }
+  return std::sqrt(squared);
+}
+
+/// How far an image lies from the cell itself, m; images: 0 to 8, 4 is the cell's own place.
+Vec<2> OverlapContact::shift_of(int image) const
+{
+  return {(image % 3 - 1) * period_[0] * size_[0], (image / 3 - 1) * period_[1] * size_[1]};
+}
+
+/// All cells that may meet some of another rank's become ghosts there.
+std::vector<Ghosts::Peer> OverlapContact::add_candidates(double skin)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr int itself = 4;
+  const int ranks = ranks_of(comm_), me = rank_of(comm_);
+  Box mine{infinity, infinity, -infinity, -infinity};
+  for (std::size_t c = 0; c < surface_.size(); ++c)
+    for (std::size_t k = 0; k < 2; ++k) {
+      mine[k] = std::min(mine[k], boxes_[c][k]);
+      mine[k + 2] = std::max(mine[k + 2], boxes_[c][k + 2]);
+    }
+  const std::vector<double> others = joined_over_ranks(comm_, mine);
+  std::vector<std::vector<double>> out(static_cast<std::size_t>(ranks));
+  std::vector<Ghosts::Peer> peers(static_cast<std::size_t>(ranks));
+  for (int r = 0; r < ranks; ++r)
+    for (int image = 0; image < 9; ++image) {
+      const Vec<2> shift = shift_of(image);
+      const bool is_one = (image % 3 == 1 || period_[0] > 0) && (image / 3 == 1 || period_[1] > 0);
+      if (!is_one || (r == me && image == itself)) continue;
+      const auto moved = [&](const Box& box) {
+        return Box{box[0] + shift[0], box[1] + shift[1], box[2] + shift[0], box[3] + shift[1]};
+      };
+      Box theirs;
+      std::copy_n(&others[std::size_t(r) * 4], 4, theirs.begin());
+      if (!meet(moved(mine), theirs, skin)) continue;
+      for (LocalIndex c = 0; c < cells(); ++c) {
+        if (!meet(moved(boxes_[std::size_t(c)]), theirs, skin)) continue;
+        peers[std::size_t(r)].sent.push_back({c, image});
+        std::vector<double>& list = out[std::size_t(r)];
+        const Surface& cell = surface_[std::size_t(c)];
+        list.insert(list.end(),
+                    {double(cell.location[0]), double(cell.location[1]), cell.stiffness});
+        for (int k = 0; k < corner_values; ++k)
+          list.push_back(corners_of(c)[k] + shift[k < 4 ? 0 : 1]);
+      }
+    }
+  const auto in = traded_over_ranks(comm_, out);
+  constexpr std::size_t values = 3 + corner_values;
+  for (int r = 0; r < ranks; ++r) {
+    const std::vector<double>& list = in[std::size_t(r)];
+    Ghosts::Peer& peer = peers[std::size_t(r)];
+    peer.rank = r;
+    peer.first = LocalIndex(stiffness_.size());
+    peer.count = LocalIndex(list.size() / values);
+    for (std::size_t k = 0; k < list.size(); k += values) {
+      locations_.push_back({LocalIndex(list[k]), LocalIndex(list[k + 1])});
+      stiffness_.push_back(list[k + 2]);
+      corners_.insert(corners_.end(), &list[k + 3], &list[k + 3] + corner_values);
+    }
+  }
+  return peers;
+}
+
+void OverlapContact::list_pairs(double skin)
+{
+  struct Entry {
+    GlobalIndex bin;
+    LocalIndex cell;
+    auto operator<=>(const Entry&) const = default;
+  };
+  const double width = 1.5 * size_.maxCoeff() + skin;
+  const auto bin_of = [&](double place) { return GlobalIndex(std::floor(place / width)); };
+  std::vector<Entry> entries;
+  for (std::size_t c = 0; c < stiffness_.size(); ++c) {
+    const Box& box = boxes_[c];
+    for (GlobalIndex j = bin_of(box[1] - 0.5 * skin); j <= bin_of(box[3] + 0.5 * skin); ++j)
+      for (GlobalIndex i = bin_of(box[0] - 0.5 * skin); i <= bin_of(box[2] + 0.5 * skin); ++i)
+        entries.push_back({j * (GlobalIndex(1) << 32) + i, LocalIndex(c)});
+  }
+  std::sort(entries.begin(), entries.end());
+  pairs_.clear();
+  for (auto first = entries.begin(); first != entries.end();) {
+    const auto last = std::find_if(first, entries.end(),
+                                   [&](const Entry& entry) { return entry.bin != first->bin; });
+    for (auto a = first; a != last && a->cell < cells(); ++a)
+      for (auto b = a + 1; b != last; ++b)
+        if (meet(boxes_[std::size_t(a->cell)], boxes_[std::size_t(b->cell)], skin) &&
+            !are_neighbours(locations_[std::size_t(a->cell)], locations_[std::size_t(b->cell)]))
+          pairs_.push_back({a->cell, b->cell});
+    first = last;
+  }
+  std::sort(pairs_.begin(), pairs_.end());
+  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+}
+
+/// Candidates without a pair go; their owners are told which are left.
+void OverlapContact::keep_needed(std::vector<Ghosts::Peer> peers)
+{
+  std::vector<char> needed(stiffness_.size(), 0);
+  for (const Pair& pair : pairs_) needed[std::size_t(pair.second)] = 1;
+  std::vector<std::vector<double>> out(peers.size());
+  std::vector<LocalIndex> number(stiffness_.size());
+  LocalIndex next = cells();
+  for (LocalIndex c = 0; c < next; ++c) number[std::size_t(c)] = c;
+  for (Ghosts::Peer& peer : peers) {
+    const LocalIndex first = next;
+    for (LocalIndex k = 0; k < peer.count; ++k) {
+      const auto ghost = std::size_t(peer.first + k);
+      if (!needed[ghost]) continue;
+      out[std::size_t(peer.rank)].push_back(k);
+      number[ghost] = next;
+      stiffness_[std::size_t(next++)] = stiffness_[ghost];
+    }
+    peer.first = first;
+    peer.count = next - first;
+  }
+  for (Pair& pair : pairs_) pair.second = number[std::size_t(pair.second)];
+  stiffness_.resize(std::size_t(next));
+  corners_.resize(std::size_t(next) * corner_values);
+  const auto in = traded_over_ranks(comm_, out);
+  for (Ghosts::Peer& peer : peers) {
+    std::vector<Ghosts::Sent> sent;
+    for (const double k : in[std::size_t(peer.rank)]) sent.push_back(peer.sent[std::size_t(k)]);
+    peer.sent = std::move(sent);
+  }
+  ghosts_.set(std::move(peers));
+}
+
+void OverlapContact::find_overlaps()
+{
+  near_.clear();
+  for (const Pair& pair : pairs_)
+    if (meet(boxes_[std::size_t(pair.first)], boxes_[std::size_t(pair.second)], 0))
+      near_.push_back(pair);
+  const std::size_t groups = (near_.size() + lane_count - 1) / lane_count;
+  overlaps_.resize(groups * values_per_group);
+  for (std::size_t g = 0; g < groups; ++g) {
+    alignas(lane_alignment) double a[corner_values * lane_count], b[corner_values * lane_count];
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const Pair& pair = near_[std::min(g * lane_count + lane, near_.size() - 1)];
+      const double *first = corners_of(pair.first), *second = corners_of(pair.second);
+      for (std::size_t k = 0; k < corner_values; ++k) {
+        const double origin = first[k < 4 ? 0 : 4];
+        a[k * lane_count + lane] = first[k] - origin;
+        b[k * lane_count + lane] = second[k] - origin;
+      }
+    }
+    Quads one, other;
+    for (int k = 0; k < 4; ++k) {
+      one.x[k] = load(a + k * lane_count);
+      one.y[k] = load(a + (k + 4) * lane_count);
+      other.x[k] = load(b + k * lane_count);
+      other.y[k] = load(b + (k + 4) * lane_count);
+    }
+    const Overlap overlap = overlap_of(one, other);
+    double* out = &overlaps_[g * values_per_group];
+    store(overlap.area, out);
+    for (int k = 0; k < 4; ++k) {
+      store(overlap.a_x[k], out + (1 + k) * lane_count);
+      store(overlap.a_y[k], out + (5 + k) * lane_count);
+      store(overlap.b_x[k], out + (9 + k) * lane_count);
+      store(overlap.b_y[k], out + (13 + k) * lane_count);
+    }
+  }
+}
+
+void OverlapContact::measure(const MeshNodes<2>& nodes)
+{
+  take_places(nodes);
+  ghosts_.update(corners_, corner_values, [this](int image, std::span<double> corners) {
+    const Vec<2> shift = shift_of(image);
+    for (std::size_t k = 0; k < corner_values; ++k) corners[k] += shift[k < 4 ? 0 : 1];
+  });
+  find_boxes();
+  find_overlaps();
+  std::fill(pressure_.begin(), pressure_.end(), 0.0);
+  touching_ = 0;
+  for (std::size_t k = 0; k < near_.size(); ++k) {
+    const double area = *overlap_of_pair(k);
+    if (!(area > 0)) continue;
+    for (const LocalIndex cell : {near_[k].first, near_[k].second})
+      pressure_[std::size_t(cell)] += stiffness_[std::size_t(cell)] / area_ * area;
+    touching_ += near_[k].second < cells() ? 2 : 1;
+  }
+  ghosts_.update(pressure_, 1);
+}
+
+void OverlapContact::add_forces(NodeFields<2>& fields) const
+{
+  for (std::size_t k = 0; k < near_.size(); ++k) {
+    const double* values = overlap_of_pair(k);
+    if (!(values[0] > 0)) continue;
+    const auto& [first, second] = near_[k];
+    const double push = pressure_[std::size_t(first)] + pressure_[std::size_t(second)];
+    const auto push_corners = [&](const Surface& cell, const double* derivative) {
+      for (std::size_t c = 0; c < 4; ++c) {
+        double* force = fields.force_of(cell.nodes[c]);
+        force[0] -= push * derivative[c * lane_count];
+        force[1] -= push * derivative[(c + 4) * lane_count];
+      }
+    };
+    push_corners(surface_[std::size_t(first)], values + lane_count);
+    if (second < cells()) push_corners(surface_[std::size_t(second)], values + 9 * lane_count);
+  }
+}
+
+double OverlapContact::energy() const
+{
+  double energy = 0;
+  for (std::size_t c = 0; c < surface_.size(); ++c)
+    energy += pressure_[c] * pressure_[c] * area_ / (2 * stiffness_[c]);
+  return energy;
+}
+
+double OverlapContact::overlapped_area() const
+{
+  double area = 0;
+  for (std::size_t c = 0; c < surface_.size(); ++c)
+    area += 0.5 * pressure_[c] * area_ / stiffness_[c];
+  return area;
+}
+
+std::size_t OverlapContact::bytes() const
+{
+  return surface_.size() * sizeof(Surface) + pairs_.capacity() * sizeof(Pair) +
+         near_.capacity() * sizeof(Pair) +
+         (corners_.capacity() + 4 * boxes_.capacity() + overlaps_.capacity()) * sizeof(double);
+}
+
+}  // namespace mpm

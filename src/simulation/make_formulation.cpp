@@ -1,0 +1,36 @@
+#include <mpm/lagrangian/total_lagrangian.hpp>
+#include <mpm/simulation/method.hpp>
+#include <mpm/simulation/model.hpp>
+#include <mpm/stepping/updated_lagrangian.hpp>
+
+namespace mpm {
+
+template <int Dim>
+std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
+                                                   const Layout<Dim>& layout,
+                                                   const Decomposition<Dim>& decomposition,
+                                                   Model<Dim> model)
+{
+  if constexpr (Dim == 2)
+    if (scene.numerics.formulation == scene::FormulationKind::total_lagrangian)
+      return std::make_unique<TotalLagrangian>(
+          decomposition,
+          TotalLagrangian::Setup{std::move(model.bodies), std::move(model.slots),
+                                 layout.location_size, scene.numerics.thickness,
+                                 scene.numerics.contact_stiffness});
+  typename UpdatedLagrangian<Dim>::Setup setup;
+  setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
+  setup.order = scene.numerics.update_order;
+  setup.bodies = std::move(model.bodies);
+  setup.slots = std::move(model.slots);
+  setup.mass_cut = 1e-24 * layout.largest_particle_mass;
+  setup.extras = extras_of(scene.numerics);
+  return std::make_unique<UpdatedLagrangian<Dim>>(decomposition, std::move(setup));
+}
+
+template std::unique_ptr<Formulation<2>> make_formulation(const scene::Scene&, const Layout<2>&,
+                                                          const Decomposition<2>&, Model<2>);
+template std::unique_ptr<Formulation<3>> make_formulation(const scene::Scene&, const Layout<3>&,
+                                                          const Decomposition<3>&, Model<3>);
+
+}  // namespace mpm
