@@ -33,6 +33,14 @@ struct Sides : Quads {
   }
 };
 
+/// Distances (m^2) of this size or less are none: their inverses are no numbers.
+inline constexpr double nothing = 1e-290;
+
+inline LaneMask is_out(const Lanes& distance)
+{
+  return distance < -nothing;
+}
+
 /// The part [first, last] of an edge, from 0 to 1, that lies in a quadrilateral.
 struct Part {
   Lanes first = 0.0, last = 1.0;
@@ -42,9 +50,9 @@ struct Part {
   [[gnu::always_inline]] void cut(const Lanes& start, const Lanes& end, const Lanes& crossing,
                                   const LaneMask& out)
   {
-    const LaneMask starts_out = start < 0.0, ends_out = end < 0.0;
-    stdx::where(starts_out, first) = stdx::max(first, crossing);
-    stdx::where(ends_out, last) = stdx::min(last, crossing);
+    const LaneMask starts_out = is_out(start), ends_out = is_out(end);
+    stdx::where(starts_out && !ends_out, first) = stdx::max(first, crossing);
+    stdx::where(ends_out && !starts_out, last) = stdx::min(last, crossing);
     stdx::where((starts_out && ends_out) || out, last) = 0.0;
   }
 };
@@ -77,8 +85,8 @@ struct Overlap {
 /// Coordinates are best taken from a point near both.
 [[gnu::always_inline]] inline Overlap overlap_of(const Quads& quads_a, const Quads& quads_b)
 {
-  using overlap_detail::Part;
-  const overlap_detail::Sides a(quads_a), b(quads_b);
+  using namespace overlap_detail;
+  const Sides a(quads_a), b(quads_b);
   Lanes a_from[4][4], b_from[4][4];  // corner k from side j of the other
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 4; ++j) {
@@ -92,16 +100,19 @@ struct Overlap {
     for (int j = 0; j < 4; ++j) {
       const Lanes &a0 = a_from[k][j], &a1 = a_from[(k + 1) % 4][j];
       const Lanes &b0 = b_from[j][k], &b1 = b_from[(j + 1) % 4][k];
-      // Both crossings have the same denominator, twice the area between the directions.
-      const Lanes inverse = 1.0 / (a0 - a1);
-      const LaneMask same_line = a0 == 0.0 && a1 == 0.0;
+      // Both crossings have the same denominator, twice the area between the directions. It is
+      // exact where the ends lie on either side: of nearly parallel sides it may be lost elsewhere.
+      const LaneMask b_crosses = is_out(b0) != is_out(b1);
+      const Lanes inverse = 1.0 / select(b_crosses, b1 - b0, a0 - a1);
+      const LaneMask same_line = stdx::abs(a0) <= nothing && stdx::abs(a1) <= nothing;
       const Lanes along = a.dx[k] * b.dx[j] + a.dy[k] * b.dy[j];
       parts_a[k].cut(a0, a1, a0 * inverse, same_line && along < 0.0);
-      parts_b[j].cut(b0, b1, -b0 * inverse, b0 == 0.0 && b1 == 0.0 && along != 0.0);
+      parts_b[j].cut(b0, b1, -b0 * inverse,
+                     stdx::abs(b0) <= nothing && stdx::abs(b1) <= nothing && along != 0.0);
     }
   for (int k = 0; k < 4; ++k) {
-    overlap_detail::add_edge(a, k, parts_a[k], found.area, found.a_x, found.a_y);
-    overlap_detail::add_edge(b, k, parts_b[k], found.area, found.b_x, found.b_y);
+    add_edge(a, k, parts_a[k], found.area, found.a_x, found.a_y);
+    add_edge(b, k, parts_b[k], found.area, found.b_x, found.b_y);
   }
   return found;
 }
