@@ -121,6 +121,41 @@ TEST(LocationCell, IsNeitherStretchedNorBentByATurn)
   }
 }
 
+TEST(LocationCell, IsHeldOpenByForcesThatAreTheGradientOfAnEnergy)
+{
+  const CellFrame frame(size);
+  constexpr double stiffness = 0.7, step = 1e-6;
+  const auto energy = [&](const Places& places) {
+    const Lanes energy = corner_energy(in_all_lanes(places), stiffness, frame);
+    return double(energy[0]);
+  };
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> around(-0.15, 0.15);
+  int held = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Places places = at_rest();
+    for (double& value : places.reshaped()) value += around(random);
+    CellCorners force{};
+    add_corner_forces(in_all_lanes(places), stiffness, frame, force);
+    held += energy(places) > 0;
+    Eigen::Vector2d sum(0, 0);
+    for (int i = 0; i < 8; ++i) {
+      Places above = places, below = places;
+      above(i % 2, i / 2) += step;
+      below(i % 2, i / 2) -= step;
+      const double found = (i % 2 == 0 ? force.x : force.y)[i / 2][0];
+      ASSERT_NEAR(found, -(energy(above) - energy(below)) / (2 * step), 1e-5) << trial << ", " << i;
+      sum[i % 2] += found;
+    }
+    ASSERT_LT(sum.norm(), 1e-13);
+  }
+  EXPECT_GT(held, 50);
+  EXPECT_EQ(energy(at_rest()), 0);
+  Places pressed = at_rest();
+  pressed.row(0) *= 0.21;
+  EXPECT_EQ(energy(pressed), 0);
+}
+
 /// Pure bending of a wall of one cell: fibres along x at distance y are strained by c y.
 TEST(LocationCell, BendsWithTheStiffnessOfABeam)
 {
