@@ -65,6 +65,25 @@ void RigidWall<Dim>::constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>
   }
 }
 
+template <int Dim>
+void RigidWall<Dim>::find_near(const MeshNodes<Dim>& nodes, double face)
+{
+  const int axis = placement_.axis;
+  const double reach = nodes.spacing()[axis], side = placement_.upper ? 1 : -1;
+  if (near_ && nodes.way() >= near_->way &&
+      nodes.way() - near_->way + std::abs(face - near_->face) < 0.5 * reach)
+    return;
+  near_ = Near{nodes.way(), face, {}, {}};
+  for (LocalIndex node = 0; node < nodes.size(); ++node) {
+    const bool held = grip_ != WallGrip::contact &&
+                      std::abs(nodes.rest(node, axis) - placement_.position) < 1e-9 * reach;
+    if (held)
+      near_->held.push_back(node);
+    else if (side * (nodes.along(axis)[node] - face) > -reach)
+      near_->nodes.push_back(node);
+  }
+}
+
 /// Nodes that stood at the face are held by a wall with a grip; all others meet it one-sidedly, and
 /// end the step at the face.
 template <int Dim>
@@ -72,15 +91,8 @@ void RigidWall<Dim>::stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, 
                           double dt)
 {
   const int axis = placement_.axis;
-  if (!held_) {
-    held_.emplace();
-    const double tolerance = 1e-9 * nodes.spacing()[axis];
-    if (grip_ != WallGrip::contact)
-      for (LocalIndex node = 0; node < nodes.size(); ++node)
-        if (std::abs(nodes.rest(node, axis) - placement_.position) < tolerance)
-          held_->push_back(node);
-  }
   const double face = position(time + dt), side = placement_.upper ? 1 : -1;
+  find_near(nodes, face);
   const double* at = nodes.along(axis);
   const auto put_to_face = [&](LocalIndex node) {
     const bool owned = nodes.is_owned(node);
@@ -90,8 +102,8 @@ void RigidWall<Dim>::stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, 
       else if (grip_ == WallGrip::stick)
         this->drive(fields, node, owned, d, 0);
   };
-  for (const LocalIndex node : *held_) put_to_face(node);
-  for (LocalIndex node = 0; node < nodes.size(); ++node)
+  for (const LocalIndex node : near_->held) put_to_face(node);
+  for (const LocalIndex node : near_->nodes)
     if (side * (at[node] + dt * fields.updated_of(node)[axis] - face) > 0) put_to_face(node);
 }
 

@@ -54,6 +54,7 @@ double MeshNodes<Dim>::move(const NodeFields<Dim>& fields, double dt)
       places_[std::size_t(d)][std::size_t(node)] += dt * u[d];
       fastest = std::max(fastest, std::abs(u[d]));
     }
+  way_ += dt * fastest;
   listing_ = Nodes<Dim>::new_listing();
   return fastest;
 }
@@ -62,6 +63,7 @@ template <int Dim>
 void MeshNodes<Dim>::archive(Archive& archive)
 {
   for (int d = 0; d < Dim; ++d) archive.values("along_" + std::to_string(d), places_[std::size_t(d)]);
+  archive.value("way", way_);
   if (archive.is_loading()) listing_ = Nodes<Dim>::new_listing();
 }
 

@@ -66,7 +66,7 @@ void LocationCells::initialise(ColumnGroup& motion, LocalIndex cell)
   motion(deformation, cell) = motion(deformation + 3, cell) = 1;
 }
 
-CellCorners LocationCells::corners(const MeshNodes<2>& nodes, LocalIndex block) const
+[[gnu::always_inline]] inline CellCorners LocationCells::corners(const MeshNodes<2>& nodes, LocalIndex block) const
 {
   alignas(lane_alignment) double x[corners_of_cell * lane_count], y[corners_of_cell * lane_count];
   const LocalIndex* node = &corner_nodes_[std::size_t(block) * corners_of_cell * lane_count];
@@ -83,79 +83,105 @@ CellCorners LocationCells::corners(const MeshNodes<2>& nodes, LocalIndex block) 
   return at;
 }
 
+/// Blocks that one call of the law takes, and what it takes of them.
+struct LocationCells::Chunk {
+  static constexpr int blocks = 16;
+  alignas(lane_alignment) double gradient[blocks * 4 * lane_count];
+  alignas(lane_alignment) double stress[blocks * 3 * lane_count];
+  alignas(lane_alignment) double bending[blocks * 2 * lane_count];  ///< as Law::update_bent has it
+  alignas(lane_alignment) double bent[blocks * 2 * lane_count];     ///< 1/m, of the cells
+  bool narrow[blocks];                                              ///< whether a corner is held
+};
+
+/// Deformation, its rate and bending of one block. Returns J.
+[[gnu::flatten]] Lanes LocationCells::deform(ParticleStore& cells, LocalIndex block,
+                                             const MeshNodes<2>& nodes, double rate, Chunk& chunk,
+                                             int k) const
+{
+  double* motion = cells.motion().block(block);
+  const Lanes volume = load(cells.state().block(block));
+  const CellDeformation now(corners(nodes, block), frame_);
+  // L = (F F_old^-1 - I) / dt
+  double* f = motion + deformation_ * lane_count;
+  const Lanes old[4] = {column(f, 0), column(f, 1), column(f, 2), column(f, 3)};
+  const Lanes per_step = rate / (old[0] * old[3] - old[1] * old[2]);
+  double* l = chunk.gradient + k * 4 * lane_count;
+  for (int i = 0; i < 2; ++i) {
+    const Lanes dx = (now.f[i] - old[i]) * per_step, dy = (now.f[i + 2] - old[i + 2]) * per_step;
+    store(dx * old[3] - dy * old[1], l + i * lane_count);
+    store(dy * old[0] - dx * old[2], l + (i + 2) * lane_count);
+  }
+  for (int j = 0; j < 4; ++j) store(now.f[j], f + j * lane_count);
+  Lanes squared = 0.0, energy = 0.0;
+  for (int j = 0; j < 2; ++j) {
+    store(now.bending[j], chunk.bent + (2 * k + j) * lane_count);
+    Lanes elastic = now.bending[j];
+    if (plastic_bending_ >= 0) elastic -= column(motion, plastic_bending_ + j);
+    squared += (fibre_stress_[j] * elastic) * (fibre_stress_[j] * elastic);
+    energy += 0.5 * bending_[j] * elastic * elastic;
+  }
+  store(squared, chunk.bending + 2 * k * lane_count);
+  store(volume * energy, chunk.bending + (2 * k + 1) * lane_count);
+  chunk.narrow[k] = stdx::any_of(now.narrowest_corner(frame_) < least_corner);
+  return now.jacobian();
+}
+
+/// Forces of one block on its corners, once the law has spoken.
+[[gnu::flatten]] void LocationCells::push(ParticleStore& cells, LocalIndex block,
+                                          const MeshNodes<2>& nodes, const Chunk& chunk, int k,
+                                          double* out) const
+{
+  double* motion = cells.motion().block(block);
+  const Lanes volume = load(cells.state().block(block));
+  const Lanes scale = load(chunk.bending + 2 * k * lane_count);
+  CellDeformation now;
+  for (int j = 0; j < 4; ++j) now.f[j] = column(motion, deformation_ + j);
+  Lanes moment[2];
+  for (int j = 0; j < 2; ++j) {
+    now.bending[j] = load(chunk.bent + (2 * k + j) * lane_count);
+    Lanes elastic = now.bending[j];
+    if (plastic_bending_ >= 0) {
+      double* plastic = motion + (plastic_bending_ + j) * lane_count;
+      const Lanes before = load(plastic);
+      elastic = scale * (elastic - before);
+      store(select(scale < 1.0, now.bending[j] - elastic, before), plastic);
+    }
+    moment[j] = bending_[j] * volume * elastic;
+  }
+  const double* t = chunk.stress + k * 3 * lane_count;
+  const Lanes tau[3] = {column(t, 0), column(t, 1), column(t, 2)};
+  CellCorners force = corner_forces(now, tau, moment, frame_);
+  if (chunk.narrow[k]) [[unlikely]]
+    add_corner_forces(corners(nodes, block), corner_modulus_ * volume, frame_, force);
+  for (int c = 0; c < corners_of_cell; ++c) {
+    store(force.x[c], out + 2 * c * lane_count);
+    store(force.y[c], out + (2 * c + 1) * lane_count);
+  }
+}
+
 std::optional<LocationCells::Inverted> LocationCells::update(Body<2>& body,
                                                              const MeshNodes<2>& nodes, double dt,
                                                              double* forces) const
 {
-  constexpr int chunk = 16;  // blocks in one call of the law
-  alignas(lane_alignment) double gradient[chunk * 4 * lane_count];
-  alignas(lane_alignment) double stress[chunk * 3 * lane_count];
-  alignas(lane_alignment) double bending[chunk * 2 * lane_count];
-  const double rate = 1 / dt;
-  const bool flows = plastic_bending_ >= 0;
+  Chunk chunk;
   std::optional<Inverted> inverted;
   ParticleStore& cells = body.particles;
-  for (LocalIndex first = 0; first < cells.blocks(); first += chunk) {
-    const int count = std::min<LocalIndex>(chunk, cells.blocks() - first);
+  for (LocalIndex first = 0; first < cells.blocks(); first += Chunk::blocks) {
+    const int count = std::min<LocalIndex>(Chunk::blocks, cells.blocks() - first);
     for (int k = 0; k < count; ++k) {
-      double* motion = cells.motion().block(first + k);
-      const Lanes volume = load(cells.state().block(first + k));
-      const CellDeformation now(corners(nodes, first + k), frame_);
-      const Lanes jacobian = now.jacobian();
-      if (stdx::any_of(!(jacobian > 0.0))) [[unlikely]]
-        for (int lane = 0; lane < lane_count && !inverted; ++lane)
-          if (const LocalIndex cell = (first + k) * lane_count + lane;
-              !(jacobian[lane] > 0) && cell < cells.size())
-            inverted = {cell, jacobian[lane]};
-      // L = (F F_old^-1 - I) / dt
-      double* f = motion + deformation_ * lane_count;
-      const Lanes old[4] = {column(f, 0), column(f, 1), column(f, 2), column(f, 3)};
-      const Lanes per_step = rate / (old[0] * old[3] - old[1] * old[2]);
-      double* l = gradient + k * 4 * lane_count;
-      for (int i = 0; i < 2; ++i) {
-        const Lanes dx = (now.f[i] - old[i]) * per_step, dy = (now.f[i + 2] - old[i + 2]) * per_step;
-        store(dx * old[3] - dy * old[1], l + i * lane_count);
-        store(dy * old[0] - dx * old[2], l + (i + 2) * lane_count);
-      }
-      for (int j = 0; j < 4; ++j) store(now.f[j], f + j * lane_count);
-      Lanes squared = 0.0, energy = 0.0;
-      for (int j = 0; j < 2; ++j) {
-        Lanes elastic = now.bending[j];
-        if (flows) elastic -= column(motion, plastic_bending_ + j);
-        squared += (fibre_stress_[j] * elastic) * (fibre_stress_[j] * elastic);
-        energy += 0.5 * bending_[j] * elastic * elastic;
-      }
-      store(squared, bending + 2 * k * lane_count);
-      store(volume * energy, bending + (2 * k + 1) * lane_count);
+      const Lanes jacobian = deform(cells, first + k, nodes, 1 / dt, chunk, k);
+      if (inverted || stdx::all_of(jacobian > 0.0)) [[likely]]
+        continue;
+      for (int lane = lane_count; lane-- > 0;)
+        if (const LocalIndex cell = (first + k) * lane_count + lane;
+            !(jacobian[lane] > 0) && cell < cells.size())
+          inverted = {cell, jacobian[lane]};
     }
-    body.law->update_bent(cells.state().block(first), count, gradient, dt, stress, bending);
-    for (int k = 0; k < count; ++k) {
-      double* motion = cells.motion().block(first + k);
-      const Lanes volume = load(cells.state().block(first + k));
-      const CellCorners at = corners(nodes, first + k);
-      const CellDeformation now(at, frame_);
-      const Lanes scale = load(bending + 2 * k * lane_count);
-      Lanes moment[2];
-      for (int j = 0; j < 2; ++j) {
-        Lanes elastic = now.bending[j];
-        if (flows) {
-          double* plastic = motion + (plastic_bending_ + j) * lane_count;
-          const Lanes before = load(plastic);
-          elastic = scale * (elastic - before);
-          store(select(scale < 1.0, now.bending[j] - elastic, before), plastic);
-        }
-        moment[j] = bending_[j] * volume * elastic;
-      }
-      const double* t = stress + k * 3 * lane_count;
-      const Lanes tau[3] = {column(t, 0), column(t, 1), column(t, 2)};
-      CellCorners force = corner_forces(now, tau, moment, frame_);
-      add_corner_forces(at, corner_modulus_ * volume, frame_, force);
-      double* out = forces + std::size_t(first + k) * block_values;
-      for (int c = 0; c < corners_of_cell; ++c) {
-        store(force.x[c], out + 2 * c * lane_count);
-        store(force.y[c], out + (2 * c + 1) * lane_count);
-      }
-    }
+    body.law->update_bent(cells.state().block(first), count, chunk.gradient, dt, chunk.stress,
+                          chunk.bending);
+    for (int k = 0; k < count; ++k)
+      push(cells, first + k, nodes, chunk, k,
+           forces + std::size_t(first + k) * block_values);
   }
   return inverted;
 }

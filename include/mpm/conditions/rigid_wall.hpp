@@ -59,8 +59,15 @@ class RigidWall final : public BoundaryCondition<Dim> {
   WallGrip grip_;
   std::optional<Found> found_for_;
   std::vector<LocalIndex> found_;  ///< nodes at the face and behind it
-  /// Nodes of a body that stood at the face at time 0.
-  std::optional<std::vector<LocalIndex>> held_;
+  void find_near(const MeshNodes<Dim>& nodes, double face);
+
+  /// Of nodes that move with a body: those that stood at the face at time 0, and all that may come
+  /// to it before the face and they have gone half a location.
+  struct Near {
+    double way, face;  ///< m, when they were found
+    std::vector<LocalIndex> held, nodes;
+  };
+  std::optional<Near> near_;
 };
 
 }  // namespace mpm

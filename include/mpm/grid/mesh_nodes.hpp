@@ -37,6 +37,9 @@ class MeshNodes final : public Nodes<Dim> {
   /// x += dt v with the updated velocities. Returns the largest component of them, m/s.
   double move(const NodeFields<Dim>& fields, double dt);
 
+  /// m, that no node has gone farther along an axis since time 0.
+  double way() const { return way_; }
+
   /// All of them.
   NodeRun<Dim> run() const { return {0, size(), IndexVec<Dim>::Zero()}; }
   void archive(Archive& archive);
@@ -48,6 +51,7 @@ class MeshNodes final : public Nodes<Dim> {
   Vec<Dim> location_size_;
   IndexVec<Dim> period_;
   std::array<LaneVector<double>, std::size_t(Dim)> places_;
+  double way_ = 0;
   GlobalIndex listing_;
 };
 

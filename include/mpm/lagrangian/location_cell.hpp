@@ -15,11 +15,14 @@ struct CellCorners {
 struct CellFrame {
   double half_inverse_x, half_inverse_y;  ///< 1 / (2 h), 1/m
   double inverse_area;                    ///< 1/m^2
+  double half_x, half_y;                  ///< m
 
   explicit CellFrame(const Vec<2>& size)
       : half_inverse_x(0.5 / size[0]),
         half_inverse_y(0.5 / size[1]),
-        inverse_area(1 / (size[0] * size[1]))
+        inverse_area(1 / (size[0] * size[1])),
+        half_x(0.5 * size[0]),
+        half_y(0.5 * size[1])
   {
   }
 };
@@ -31,6 +34,7 @@ struct CellDeformation {
   Lanes
       bending[2];  ///< b = F^-1 a, 1/m: fibres along axis j are strained by b_j times the distance
 
+  CellDeformation() = default;
   [[gnu::always_inline]] CellDeformation(const CellCorners& at, const CellFrame& frame)
   {
     const Lanes(*const place[2])[4] = {&at.x, &at.y};
@@ -47,6 +51,13 @@ struct CellDeformation {
     bending[1] = (f[0] * twist[1] - f[1] * twist[0]) * inverse;
   }
   Lanes jacobian() const { return f[0] * f[3] - f[1] * f[2]; }
+  /// What the edges span at the narrowest corner, of that at rest: at X, Y the determinant is
+  /// J (1 + b_1 Y + b_2 X).
+  Lanes narrowest_corner(const CellFrame& frame) const
+  {
+    return jacobian() * (1.0 - stdx::abs(bending[0]) * frame.half_y -
+                         stdx::abs(bending[1]) * frame.half_x);
+  }
 };
 
 /// On the corners, from V0 tau {xx, yy, xy} at the centre, J, and the moments m_j = dW/db_j, J m:
@@ -97,7 +108,7 @@ struct CornerEdges {
   {
   }
   /// By how much they span too little, of the area at rest.
-  Lanes gap(const CellFrame& frame) const
+  [[gnu::always_inline]] Lanes gap(const CellFrame& frame) const
   {
     return stdx::max(least_corner - (ux * wy - uy * wx) * frame.inverse_area, Lanes(0.0));
   }
@@ -108,7 +119,7 @@ struct CornerEdges {
 /// sum over the corners of stiffness (least_corner - a)^2 / 2, a = span of the corner's edges over
 /// that at rest: 0 for every affine deformation with J > least_corner. One-point cells without it
 /// tangle where they are pressed from all sides. `stiffness`, J.
-inline Lanes corner_energy(const CellCorners& at, const Lanes& stiffness, const CellFrame& frame)
+[[gnu::always_inline]] inline Lanes corner_energy(const CellCorners& at, const Lanes& stiffness, const CellFrame& frame)
 {
   Lanes energy = 0.0;
   for (int k = 0; k < 4; ++k) {
@@ -123,10 +134,6 @@ inline Lanes corner_energy(const CellCorners& at, const Lanes& stiffness, const 
                                                      const CellFrame& frame, CellCorners& force)
 {
   using namespace location_cell_detail;
-  LaneMask narrow(false);
-  for (int k = 0; k < 4; ++k) narrow = narrow || CornerEdges(at, k).gap(frame) > 0.0;
-  if (stdx::none_of(narrow)) [[likely]]
-    return;
   for (int k = 0; k < 4; ++k) {
     const CornerEdges edges(at, k);
     const Lanes push = stiffness * frame.inverse_area * edges.gap(frame);

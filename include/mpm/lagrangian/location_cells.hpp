@@ -49,6 +49,11 @@ class LocationCells {
   std::size_t bytes() const { return corner_nodes_.size() * sizeof(LocalIndex); }
 
  private:
+  struct Chunk;
+  Lanes deform(ParticleStore& cells, LocalIndex block, const MeshNodes<2>& nodes, double rate,
+               Chunk& chunk, int k) const;
+  void push(ParticleStore& cells, LocalIndex block, const MeshNodes<2>& nodes, const Chunk& chunk,
+            int k, double* out) const;
   CellCorners corners(const MeshNodes<2>& nodes, LocalIndex block) const;
 
   CellFrame frame_;
