@@ -30,7 +30,7 @@ LocationCells::LocationCells(const Body<2>& body, std::span<const CellNodes> nod
     : frame_(size),
       deformation_(body.particles.motion().find("deformation")),
       plastic_bending_(body.particles.motion().find("plastic_bending")),
-      corner_modulus_(body.density * body.law->wave_speed() * body.law->wave_speed())
+      corner_modulus_(4 * body.density * body.law->wave_speed() * body.law->wave_speed())
 {
   const Vec<2> modulus = body.law->bending_modulus();
   for (int axis = 0; axis < 2; ++axis) {

@@ -29,11 +29,11 @@ Box box_of(const double* corners)
 
 }  // namespace
 
-OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Surface> cells, const Vec<2>& size,
+OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec<2>& size,
                                const IndexVec<2>& period)
     : comm_(comm),
       ghosts_(comm),
-      surface_(std::move(cells)),
+      cells_(std::move(cells)),
       size_(size),
       period_(period),
       area_(size[0] * size[1])
@@ -46,20 +46,27 @@ void OverlapContact::take_places(const MeshNodes<2>& nodes)
   for (LocalIndex c = 0; c < cells(); ++c) {
     double* to = corners_of(c);
     for (std::size_t k = 0; k < 4; ++k) {
-      to[k] = x[surface_[std::size_t(c)].nodes[k]];
-      to[k + 4] = y[surface_[std::size_t(c)].nodes[k]];
+      to[k] = x[cells_[std::size_t(c)].nodes[k]];
+      to[k + 4] = y[cells_[std::size_t(c)].nodes[k]];
     }
   }
 }
 
-bool OverlapContact::are_neighbours(const IndexVec<2>& a, const IndexVec<2>& b) const
+/// Neighbours with a side in common cannot, nor those around a node where all four cells are; and
+/// what is behind the outer layer on both sides does not before the layers themselves.
+bool OverlapContact::can_meet(LocalIndex own, LocalIndex other) const
 {
-  for (int d = 0; d < 2; ++d) {
-    LocalIndex apart = std::abs(a[d] - b[d]);
-    if (period_[d] > 0) apart = std::min(apart, period_[d] - apart);
-    if (apart > 1) return false;
-  }
-  return true;
+  if (open_corners_[std::size_t(own)] == 0 && open_corners_[std::size_t(other)] == 0) return false;
+  IndexVec<2> apart = locations_[std::size_t(other)] - locations_[std::size_t(own)];
+  for (int d = 0; d < 2; ++d)
+    if (period_[d] > 0) {
+      if (apart[d] > period_[d] / 2) apart[d] -= period_[d];
+      if (apart[d] < -period_[d] / 2) apart[d] += period_[d];
+    }
+  if (apart.cwiseAbs().maxCoeff() > 1) return true;
+  if (apart[0] == 0 || apart[1] == 0) return false;
+  const int corner = (apart[0] > 0 ? 1 : 0) + (apart[1] > 0 ? 2 : 0);
+  return open_corners_[std::size_t(own)] >> corner & 1;
 }
 
 void OverlapContact::find_boxes()
@@ -74,13 +81,15 @@ void OverlapContact::find_pairs(const MeshNodes<2>& nodes, double skin)
   skin_ = skin;
   for (int d = 0; d < 2; ++d)
     places_then_[std::size_t(d)].assign(nodes.along(d), nodes.along(d) + nodes.size());
-  const std::size_t own = surface_.size();
+  const std::size_t own = cells_.size();
   corners_.resize(own * corner_values);
   stiffness_.resize(own);
   locations_.resize(own);
+  open_corners_.resize(own);
   for (std::size_t c = 0; c < own; ++c) {
-    stiffness_[c] = surface_[c].stiffness;
-    locations_[c] = surface_[c].location;
+    stiffness_[c] = cells_[c].stiffness;
+    locations_[c] = cells_[c].location;
+    open_corners_[c] = cells_[c].open_corners;
   }
   take_places(nodes);
   find_boxes();
@@ -115,7 +124,7 @@ std::vector<Ghosts::Peer> OverlapContact::add_candidates(double skin)
   constexpr int itself = 4;
   const int ranks = ranks_of(comm_), me = rank_of(comm_);
   Box mine{infinity, infinity, -infinity, -infinity};
-  for (std::size_t c = 0; c < surface_.size(); ++c)
+  for (std::size_t c = 0; c < cells_.size(); ++c)
     for (std::size_t k = 0; k < 2; ++k) {
       mine[k] = std::min(mine[k], boxes_[c][k]);
       mine[k + 2] = std::max(mine[k + 2], boxes_[c][k + 2]);
@@ -138,15 +147,15 @@ std::vector<Ghosts::Peer> OverlapContact::add_candidates(double skin)
         if (!meet(moved(boxes_[std::size_t(c)]), theirs, skin)) continue;
         peers[std::size_t(r)].sent.push_back({c, image});
         std::vector<double>& list = out[std::size_t(r)];
-        const Surface& cell = surface_[std::size_t(c)];
-        list.insert(list.end(),
-                    {double(cell.location[0]), double(cell.location[1]), cell.stiffness});
+        const Cell& cell = cells_[std::size_t(c)];
+        list.insert(list.end(), {double(cell.location[0]), double(cell.location[1]),
+                                 cell.stiffness, double(cell.open_corners)});
         for (int k = 0; k < corner_values; ++k)
           list.push_back(corners_of(c)[k] + shift[k < 4 ? 0 : 1]);
       }
     }
   const auto in = traded_over_ranks(comm_, out);
-  constexpr std::size_t values = 3 + corner_values;
+  constexpr std::size_t values = 4 + corner_values;
   for (int r = 0; r < ranks; ++r) {
     const std::vector<double>& list = in[std::size_t(r)];
     Ghosts::Peer& peer = peers[std::size_t(r)];
@@ -156,7 +165,8 @@ std::vector<Ghosts::Peer> OverlapContact::add_candidates(double skin)
     for (std::size_t k = 0; k < list.size(); k += values) {
       locations_.push_back({LocalIndex(list[k]), LocalIndex(list[k + 1])});
       stiffness_.push_back(list[k + 2]);
-      corners_.insert(corners_.end(), &list[k + 3], &list[k + 3] + corner_values);
+      open_corners_.push_back(unsigned(list[k + 3]));
+      corners_.insert(corners_.end(), &list[k + 4], &list[k + 4] + corner_values);
     }
   }
   return peers;
@@ -185,8 +195,8 @@ void OverlapContact::list_pairs(double skin)
                                    [&](const Entry& entry) { return entry.bin != first->bin; });
     for (auto a = first; a != last && a->cell < cells(); ++a)
       for (auto b = a + 1; b != last; ++b)
-        if (meet(boxes_[std::size_t(a->cell)], boxes_[std::size_t(b->cell)], skin) &&
-            !are_neighbours(locations_[std::size_t(a->cell)], locations_[std::size_t(b->cell)]))
+        if (can_meet(a->cell, b->cell) &&
+            meet(boxes_[std::size_t(a->cell)], boxes_[std::size_t(b->cell)], skin))
           pairs_.push_back({a->cell, b->cell});
     first = last;
   }
@@ -293,22 +303,22 @@ void OverlapContact::add_forces(NodeFields<2>& fields) const
     if (!(values[0] > 0)) continue;
     const auto& [first, second] = near_[k];
     const double push = pressure_[std::size_t(first)] + pressure_[std::size_t(second)];
-    const auto push_corners = [&](const Surface& cell, const double* derivative) {
+    const auto push_corners = [&](const Cell& cell, const double* derivative) {
       for (std::size_t c = 0; c < 4; ++c) {
         double* force = fields.force_of(cell.nodes[c]);
         force[0] -= push * derivative[c * lane_count];
         force[1] -= push * derivative[(c + 4) * lane_count];
       }
     };
-    push_corners(surface_[std::size_t(first)], values + lane_count);
-    if (second < cells()) push_corners(surface_[std::size_t(second)], values + 9 * lane_count);
+    push_corners(cells_[std::size_t(first)], values + lane_count);
+    if (second < cells()) push_corners(cells_[std::size_t(second)], values + 9 * lane_count);
   }
 }
 
 double OverlapContact::energy() const
 {
   double energy = 0;
-  for (std::size_t c = 0; c < surface_.size(); ++c)
+  for (std::size_t c = 0; c < cells_.size(); ++c)
     energy += pressure_[c] * pressure_[c] * area_ / (2 * stiffness_[c]);
   return energy;
 }
@@ -316,14 +326,14 @@ double OverlapContact::energy() const
 double OverlapContact::overlapped_area() const
 {
   double area = 0;
-  for (std::size_t c = 0; c < surface_.size(); ++c)
+  for (std::size_t c = 0; c < cells_.size(); ++c)
     area += 0.5 * pressure_[c] * area_ / stiffness_[c];
   return area;
 }
 
 std::size_t OverlapContact::bytes() const
 {
-  return surface_.size() * sizeof(Surface) + pairs_.capacity() * sizeof(Pair) +
+  return cells_.size() * sizeof(Cell) + pairs_.capacity() * sizeof(Pair) +
          near_.capacity() * sizeof(Pair) +
          (corners_.capacity() + 4 * boxes_.capacity() + overlaps_.capacity()) * sizeof(double);
 }

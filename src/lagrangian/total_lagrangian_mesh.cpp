@@ -56,7 +56,7 @@ void TotalLagrangian::make_mesh()
     return decomposition_.owner_of_cell(cell);
   };
 
-  // Locations of this rank, and those of others that lie next to a border between ranks.
+  // Locations of this rank, and those of others within two of a border between ranks.
   std::vector<IndexVec<2>> cells;
   std::map<LocationKey, int> taken;
   std::vector<double> at_borders;
@@ -66,8 +66,8 @@ void TotalLagrangian::make_mesh()
       cells.push_back(location);
       taken[key_of(location)] = me;
       bool at_border = false;
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i)
+      for (int j = -2; j <= 2; ++j)
+        for (int i = -2; i <= 2; ++i)
           at_border = at_border || owner_of(location + IndexVec<2>(i, j)) != me;
       if (at_border) at_borders.insert(at_borders.end(), {double(location[0]), double(location[1])});
     }
@@ -99,7 +99,8 @@ void TotalLagrangian::make_mesh()
   if (setup_.contact_stiffness > 0) make_contact(mesh.cells, rank_of);
 }
 
-/// Cells with a side at which there is no other.
+/// Cells with a side at which there is no other, and those around them: where much presses, corners
+/// come through the outer layer, and would meet nothing behind it.
 void TotalLagrangian::make_contact(const std::vector<LocationCells::CellNodes>& cells,
                                    const std::function<int(const IndexVec<2>&)>& rank_of)
 {
@@ -109,7 +110,16 @@ void TotalLagrangian::make_contact(const std::vector<LocationCells::CellNodes>& 
       if (period[d] > 0) location[d] = (location[d] + period[d]) % period[d];
     return rank_of(location) >= 0;
   };
-  std::vector<OverlapContact::Surface> surface;
+  /// Bit k: nothing on one side at least of the diagonal neighbour towards corner k.
+  const auto open_corners = [&](const IndexVec<2>& location) {
+    unsigned open = 0;
+    for (int corner = 0; corner < 4; ++corner)
+      if (!is_taken(location + IndexVec<2>(corner & 1 ? 1 : -1, 0)) ||
+          !is_taken(location + IndexVec<2>(0, corner & 2 ? 1 : -1)))
+        open |= 1u << corner;
+    return open;
+  };
+  std::vector<OverlapContact::Cell> near;
   std::size_t number = 0;
   for (const Body<2>& body : setup_.bodies) {
     const double wave = body.law->wave_speed();
@@ -117,14 +127,17 @@ void TotalLagrangian::make_contact(const std::vector<LocationCells::CellNodes>& 
         setup_.contact_stiffness * body.density * wave * wave * setup_.thickness;
     for (LocalIndex p = 0; p < body.particles.size(); ++p, ++number) {
       const IndexVec<2> location = location_of(body, p);
-      if (is_taken(location + IndexVec<2>(1, 0)) && is_taken(location - IndexVec<2>(1, 0)) &&
-          is_taken(location + IndexVec<2>(0, 1)) && is_taken(location - IndexVec<2>(0, 1)))
-        continue;
+      bool surrounded = true;
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i)
+          surrounded = surrounded && is_taken(location + IndexVec<2>(i, j)) &&
+                       open_corners(location + IndexVec<2>(i, j)) == 0;
+      if (surrounded) continue;
       const auto& n = cells[number];
-      surface.push_back({{n[0], n[1], n[3], n[2]}, location, stiffness});
+      near.push_back({{n[0], n[1], n[3], n[2]}, location, stiffness, open_corners(location)});
     }
   }
-  contact_.emplace(decomposition_.comm(), std::move(surface), setup_.location_size, period);
+  contact_.emplace(decomposition_.comm(), std::move(near), setup_.location_size, period);
 }
 
 void TotalLagrangian::list_node_terms()

@@ -49,14 +49,14 @@ struct Found {
 Found contact_of(MPI_Comm comm, const Scene& scene)
 {
   const int me = rank_of(comm), ranks = ranks_of(comm);
-  std::vector<OverlapContact::Surface> own;
+  std::vector<OverlapContact::Cell> own;
   std::vector<IndexVec<2>> nodes;
   std::vector<int> numbers;
   for (int c = me; c < cells; c += ranks) {
     const LocalIndex first = LocalIndex(nodes.size());
     for (int k = 0; k < 4; ++k) nodes.push_back({0, 0});
     own.push_back(
-        {{first, first + 1, first + 2, first + 3}, IndexVec<2>(3 * c, 0), stiffness});
+        {{first, first + 1, first + 2, first + 3}, IndexVec<2>(3 * c, 0), stiffness, 15});
     numbers.push_back(c);
   }
   MeshNodes<2> mesh(nodes, std::vector<char>(nodes.size(), 1), size, IndexVec<2>::Zero());
@@ -135,7 +135,7 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
   constexpr int across = 10;
   const double depth = 0.01 * size[1];
   for (const double shift : {0.0, 0.1, 0.25, 0.5, 0.7}) {
-    std::vector<OverlapContact::Surface> surface;
+    std::vector<OverlapContact::Cell> surface;
     std::vector<Vec<2>> places;
     for (int row = 0; row < 2; ++row)
       for (int c = 0; c < across; ++c) {
@@ -145,7 +145,7 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
           places.push_back(lower + corner.cwiseProduct(size));
         // Cells of a row are neighbours; the rows are not.
         surface.push_back(
-            {{first, first + 1, first + 2, first + 3}, IndexVec<2>(c, 5 * row), stiffness});
+            {{first, first + 1, first + 2, first + 3}, IndexVec<2>(c, 5 * row), stiffness, 15});
       }
     MeshNodes<2> mesh(std::vector<IndexVec<2>>(places.size(), IndexVec<2>::Zero()),
                       std::vector<char>(places.size(), 1), size, IndexVec<2>::Zero());

@@ -12,25 +12,28 @@
 
 namespace mpm {
 
-/// The potential is the sum over the surface cells of S_c A_c^2 / (2 A0), with A_c the sum of the
-/// areas on which other cells that have no node in common with it lie on it, A0 the area of a cell
+/// The potential is the sum over the cells near surfaces of S_c A_c^2 / (2 A0), with A_c the sum of the
+/// areas on which other cells lie on it that have no side in common with it, A0 the area of a cell
 /// at rest and S_c = kappa C times the thickness, C the modulus of the fastest wave: across a flush
 /// face its pressure is 2 kappa C times the depth over the size of a cell, however the lattices of
 /// the two sides lie to each other. No normals, no closest features: what the corners bear is its
 /// derivative.
 ///
-/// Each rank keeps the pairs of its own surface cells with others; of those on other ranks, and of
+/// Each rank keeps the pairs of its own cells with others; of those on other ranks, and of
 /// images across periodic sides, it holds copies.
 class OverlapContact {
  public:
-  struct Surface {
+  struct Cell {
     std::array<LocalIndex, 4> nodes;  ///< counter-clockwise
     IndexVec<2> location;
     double stiffness;  ///< S_c, N/m
+    /// Bit k: on one side at least of the diagonal neighbour towards corner k (bit 0 of k: upper
+    /// along x, bit 1: along y) there is nothing. 0: a cell behind the outer layer.
+    unsigned open_corners;
   };
 
-  /// This rank's surface cells; `size` of a location, m, and `period` in locations.
-  OverlapContact(MPI_Comm comm, std::vector<Surface> cells, const Vec<2>& size,
+  /// This rank's cells near surfaces; `size` of a location, m, and `period` in locations.
+  OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec<2>& size,
                  const IndexVec<2>& period);
 
   /// Finds all pairs that can meet before a node has moved by half of `skin`, m. Collective.
@@ -64,10 +67,10 @@ class OverlapContact {
     return &overlaps_[k / lane_count * values_per_group + k % lane_count];
   }
 
-  LocalIndex cells() const { return LocalIndex(surface_.size()); }
+  LocalIndex cells() const { return LocalIndex(cells_.size()); }
   double* corners_of(LocalIndex cell) { return &corners_[std::size_t(cell) * corner_values]; }
   void take_places(const MeshNodes<2>& nodes);
-  bool are_neighbours(const IndexVec<2>& a, const IndexVec<2>& b) const;
+  bool can_meet(LocalIndex own, LocalIndex other) const;
   void find_boxes();
   Vec<2> shift_of(int image) const;
   std::vector<Ghosts::Peer> add_candidates(double skin);
@@ -77,7 +80,7 @@ class OverlapContact {
 
   MPI_Comm comm_;
   Ghosts ghosts_;
-  std::vector<Surface> surface_;
+  std::vector<Cell> cells_;
   Vec<2> size_;
   IndexVec<2> period_;
   double area_;  ///< m^2, of a cell at rest
@@ -89,6 +92,7 @@ class OverlapContact {
   std::vector<double> pressure_;  ///< [n]: S_c A_c / A0, N/m
   std::vector<double> stiffness_;
   std::vector<IndexVec<2>> locations_;
+  std::vector<unsigned> open_corners_;
 
   std::vector<Pair> pairs_;
   std::vector<Pair> near_;        ///< those whose boxes meet
