@@ -30,13 +30,14 @@ Box box_of(const double* corners)
 }  // namespace
 
 OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec<2>& size,
-                               const IndexVec<2>& period)
+                               const IndexVec<2>& period, double damping)
     : comm_(comm),
       ghosts_(comm),
       cells_(std::move(cells)),
       size_(size),
       period_(period),
-      area_(size[0] * size[1])
+      area_(size[0] * size[1]),
+      damping_(damping)
 {
 }
 
@@ -98,6 +99,8 @@ void OverlapContact::find_pairs(const MeshNodes<2>& nodes, double skin)
   list_pairs(skin);
   keep_needed(std::move(peers));
   pressure_.assign(stiffness_.size(), 0.0);
+  // What the overlaps were before is not known of pairs that are new: none counts as changed.
+  areas_.clear();
 }
 
 double OverlapContact::largest_way(const MeshNodes<2>& nodes) const
@@ -240,15 +243,15 @@ void OverlapContact::keep_needed(std::vector<Ghosts::Peer> peers)
 void OverlapContact::find_overlaps()
 {
   near_.clear();
-  for (const Pair& pair : pairs_)
-    if (meet(boxes_[std::size_t(pair.first)], boxes_[std::size_t(pair.second)], 0))
-      near_.push_back(pair);
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    if (meet(boxes_[std::size_t(pairs_[k].first)], boxes_[std::size_t(pairs_[k].second)], 0))
+      near_.push_back(k);
   const std::size_t groups = (near_.size() + lane_count - 1) / lane_count;
   overlaps_.resize(groups * values_per_group);
   for (std::size_t g = 0; g < groups; ++g) {
     alignas(lane_alignment) double a[corner_values * lane_count], b[corner_values * lane_count];
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const Pair& pair = near_[std::min(g * lane_count + lane, near_.size() - 1)];
+      const Pair& pair = pairs_[near_[std::min(g * lane_count + lane, near_.size() - 1)]];
       const double *first = corners_of(pair.first), *second = corners_of(pair.second);
       for (std::size_t k = 0; k < corner_values; ++k) {
         const double origin = first[k < 4 ? 0 : 4];
@@ -285,24 +288,37 @@ void OverlapContact::measure(const MeshNodes<2>& nodes)
   find_boxes();
   find_overlaps();
   std::fill(pressure_.begin(), pressure_.end(), 0.0);
+  std::swap(areas_, areas_before_);
+  areas_.assign(pairs_.size(), 0.0);
   touching_ = 0;
   for (std::size_t k = 0; k < near_.size(); ++k) {
     const double area = *overlap_of_pair(k);
     if (!(area > 0)) continue;
-    for (const LocalIndex cell : {near_[k].first, near_[k].second})
+    areas_[near_[k]] = area;
+    const Pair& pair = pairs_[near_[k]];
+    for (const LocalIndex cell : {pair.first, pair.second})
       pressure_[std::size_t(cell)] += stiffness_[std::size_t(cell)] / area_ * area;
-    touching_ += near_[k].second < cells() ? 2 : 1;
+    touching_ += pair.second < cells() ? 2 : 1;
   }
+  if (areas_before_.size() != areas_.size()) areas_before_ = areas_;
   ghosts_.update(pressure_, 1);
+}
+
+/// push(number, pair, derivative of the area by the corners of the first, of the second).
+template <class Push>
+void OverlapContact::for_each_touching(const Push& push) const
+{
+  for (std::size_t k = 0; k < near_.size(); ++k) {
+    const double* values = overlap_of_pair(k);
+    if (*values > 0)
+      push(near_[k], pairs_[near_[k]], values + lane_count, values + 9 * lane_count);
+  }
 }
 
 void OverlapContact::add_forces(NodeFields<2>& fields) const
 {
-  for (std::size_t k = 0; k < near_.size(); ++k) {
-    const double* values = overlap_of_pair(k);
-    if (!(values[0] > 0)) continue;
-    const auto& [first, second] = near_[k];
-    const double push = pressure_[std::size_t(first)] + pressure_[std::size_t(second)];
+  for_each_touching([&](std::size_t, const Pair& pair, const double* first, const double* second) {
+    const double push = pressure_[std::size_t(pair.first)] + pressure_[std::size_t(pair.second)];
     const auto push_corners = [&](const Cell& cell, const double* derivative) {
       for (std::size_t c = 0; c < 4; ++c) {
         double* force = fields.force_of(cell.nodes[c]);
@@ -310,9 +326,44 @@ void OverlapContact::add_forces(NodeFields<2>& fields) const
         force[1] -= push * derivative[(c + 4) * lane_count];
       }
     };
-    push_corners(cells_[std::size_t(first)], values + lane_count);
-    if (second < cells()) push_corners(cells_[std::size_t(second)], values + 9 * lane_count);
-  }
+    push_corners(cells_[std::size_t(pair.first)], first);
+    if (pair.second < cells()) push_corners(cells_[std::size_t(pair.second)], second);
+  });
+}
+
+/// With the stiffness k = (S_c + S_d)/A0 against an overlap A and the corners' masses m, along
+/// g = dA/dx: m x'' = -k A g, so that A'' = -(k g.g/m) A, and 2 zeta sqrt(k m/(g.g)) A' damps it by
+/// zeta.
+void OverlapContact::add_damping(NodeFields<2>& fields, double dt, std::span<double> forces) const
+{
+  if (damping_ == 0) return;
+  for_each_touching([&](std::size_t number, const Pair& pair, const double* first,
+                        const double* second) {
+    const double rate = (areas_[number] - areas_before_[number]) / dt;
+    const auto a = std::size_t(pair.first), b = std::size_t(pair.second);
+    double squared = 0;
+    for (std::size_t c = 0; c < 8; ++c)
+      squared += first[c * lane_count] * first[c * lane_count] +
+                 second[c * lane_count] * second[c * lane_count];
+    if (squared == 0) return;
+    const double stiffness = (stiffness_[a] + stiffness_[b]) / area_;
+    // A corner on a surface has half of its cell's mass or so.
+    const double wanted = 2 * damping_ * std::sqrt(stiffness * 0.5 * cells_[a].mass / squared) * rate;
+    const double push = std::max(wanted, -(pressure_[a] + pressure_[b]));
+    const auto push_corners = [&](const Cell& cell, const double* derivative) {
+      for (std::size_t c = 0; c < 4; ++c) {
+        double* force = fields.force_of(cell.nodes[c]);
+        double* booked = &forces[2 * std::size_t(cell.nodes[c])];
+        for (std::size_t d = 0; d < 2; ++d) {
+          const double f = -push * derivative[(c + 4 * d) * lane_count];
+          force[d] += f;
+          booked[d] += f;
+        }
+      }
+    };
+    push_corners(cells_[a], first);
+    if (pair.second < cells()) push_corners(cells_[b], second);
+  });
 }
 
 double OverlapContact::energy() const
@@ -334,7 +385,7 @@ double OverlapContact::overlapped_area() const
 std::size_t OverlapContact::bytes() const
 {
   return cells_.size() * sizeof(Cell) + pairs_.capacity() * sizeof(Pair) +
-         near_.capacity() * sizeof(Pair) +
+         near_.capacity() * sizeof(std::size_t) +
          (corners_.capacity() + 4 * boxes_.capacity() + overlaps_.capacity()) * sizeof(double);
 }
 

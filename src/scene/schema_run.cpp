@@ -41,6 +41,10 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 "a location is the pressure across a flush contact; 0: no contact")
           .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
                  "formulation: total_lagrangian"}),
+      member<N>("contact_damping", &N::contact_damping, {.bound = from_to(0, 1)},
+                "of the swing of two cells that touch, over critical; what it takes is booked")
+          .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
+                 "formulation: total_lagrangian"}),
       member<N>("plane", &N::plane, {}, "plane strain or plane stress").in_plane(),
       member<N>("thickness", &N::thickness, {.quantity = Quantity::length, .bound = above(0)},
                 "out of the plane")

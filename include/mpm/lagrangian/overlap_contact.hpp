@@ -8,6 +8,7 @@
 #include <mpm/parallel/ghosts.hpp>
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace mpm {
@@ -27,14 +28,16 @@ class OverlapContact {
     std::array<LocalIndex, 4> nodes;  ///< counter-clockwise
     IndexVec<2> location;
     double stiffness;  ///< S_c, N/m
+    double mass;       ///< kg
     /// Bit k: on one side at least of the diagonal neighbour towards corner k (bit 0 of k: upper
     /// along x, bit 1: along y) there is nothing. 0: a cell behind the outer layer.
     unsigned open_corners;
   };
 
-  /// This rank's cells near surfaces; `size` of a location, m, and `period` in locations.
+  /// This rank's cells near surfaces; `size` of a location, m, and `period` in locations; `damping`
+  /// over that at which an overlap would go back without a swing.
   OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec<2>& size,
-                 const IndexVec<2>& period);
+                 const IndexVec<2>& period, double damping);
 
   /// Finds all pairs that can meet before a node has moved by half of `skin`, m. Collective.
   void find_pairs(const MeshNodes<2>& nodes, double skin);
@@ -46,6 +49,9 @@ class OverlapContact {
 
   // At the last call of `measure`, of this rank's cells.
   void add_forces(NodeFields<2>& fields) const;
+  /// Adds forces against the change of the overlaps in the last step, of `dt`, to the fields and to
+  /// `forces`, N, [2 * nodes]. They never pull.
+  void add_damping(NodeFields<2>& fields, double dt, std::span<double> forces) const;
   double energy() const;           ///< J
   double overlapped_area() const;  ///< m^2; every overlap counts once on either cell, half each
   GlobalIndex touching() const { return touching_; }  ///< pairs, with others' halves
@@ -77,6 +83,8 @@ class OverlapContact {
   void list_pairs(double skin);
   void keep_needed(std::vector<Ghosts::Peer> peers);
   void find_overlaps();
+  template <class Push>
+  void for_each_touching(const Push& push) const;
 
   MPI_Comm comm_;
   Ghosts ghosts_;
@@ -84,6 +92,7 @@ class OverlapContact {
   Vec<2> size_;
   IndexVec<2> period_;
   double area_;  ///< m^2, of a cell at rest
+  double damping_;
   double skin_ = 0;
 
   /// Of this rank's cells, then of the ghosts.
@@ -95,7 +104,8 @@ class OverlapContact {
   std::vector<unsigned> open_corners_;
 
   std::vector<Pair> pairs_;
-  std::vector<Pair> near_;        ///< those whose boxes meet
+  std::vector<std::size_t> near_;   ///< those whose boxes meet
+  std::vector<double> areas_, areas_before_;  ///< of all pairs, m^2
   LaneVector<double> overlaps_;   ///< per lane_count pairs in near_: area and its 16 derivatives
   std::array<std::vector<double>, 2> places_then_;  ///< of nodes, m, when the pairs were found
   GlobalIndex touching_ = 0;

@@ -25,6 +25,8 @@ class TotalLagrangian final : public Formulation<2> {
     /// kappa: across a flush face the pressure of contact is 2 kappa C times the depth over the
     /// size of a location. 0: bodies go through each other.
     double contact_stiffness = 2;
+    /// Of the overlaps' swing, over critical.
+    double contact_damping = 0.1;
   };
 
   TotalLagrangian(Decomposition<2> decomposition, Setup setup);
@@ -60,6 +62,7 @@ class TotalLagrangian final : public Formulation<2> {
   void add_masses();
   void add_forces(double dt);
   void gather_cell_forces();
+  void book_damping(double dt);
   void add_loads_on_particles();
   void look_for_pairs(double way);
   IndexVec<2> location_of(const Body<2>& body, LocalIndex particle) const;
@@ -81,6 +84,8 @@ class TotalLagrangian final : public Formulation<2> {
   /// Per lane_count nodes and corner: where in cell_forces_ the x component stands.
   std::vector<std::int32_t> node_terms_;
   std::optional<OverlapContact> contact_;
+  std::vector<double> damping_forces_;  ///< N, of contact on this rank's nodes, [2 * nodes]
+  double damped_ = 0;                   ///< J, that they have taken, of this rank's share
 
   double time_ = 0, last_step_ = 0;
   GlobalIndex steps_ = 0;

@@ -22,11 +22,13 @@ struct Sums {
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
   std::optional<typename Carried<Dim>::OfContact> contact{};
 
-  /// Work of the stresses and of contact, stored or dissipated, J.
+  /// Work of the stresses, stored or dissipated, and what contact stores, J.
   double stress_work() const
   {
     return elastic_energy + plastic_work + (contact ? contact->energy : 0.0);
   }
+  /// J, taken at the moment of the velocities.
+  double damped() const { return contact ? contact->dissipated : 0.0; }
 };
 
 /// Over all ranks. Collective.
