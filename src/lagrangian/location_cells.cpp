@@ -14,15 +14,6 @@ Lanes column(const double* block, int index)
   return load(block + index * lane_count);
 }
 
-/// Square of the smaller principal stretch.
-Lanes least_stretch_squared(const double* f)
-{
-  const Lanes xx = column(f, 0), yx = column(f, 1), xy = column(f, 2), yy = column(f, 3);
-  const Lanes a = xx * xx + yx * yx, b = xy * xy + yy * yy, c = xx * xy + yx * yy;
-  const Lanes half = 0.5 * (a - b);
-  return 0.5 * (a + b) - stdx::sqrt(half * half + c * c);
-}
-
 }  // namespace
 
 LocationCells::LocationCells(const Body<2>& body, std::span<const CellNodes> nodes,
@@ -225,14 +216,28 @@ void LocationCells::fill_motion(Body<2>& body, const MeshNodes<2>& nodes,
   }
 }
 
-double LocationCells::wave_speed_at_rest(const Body<2>& body) const
+Lanes LocationCells::least_stretch_squared(const MeshNodes<2>& nodes, LocalIndex block) const
+{
+  const CellDeformation now(corners(nodes, block), frame_);
+  const auto& f = now.f;
+  const Lanes a = f[0] * f[0] + f[1] * f[1], b = f[2] * f[2] + f[3] * f[3],
+              c = f[0] * f[2] + f[1] * f[3];
+  const Lanes half = 0.5 * (a - b);
+  const Lanes jacobian = now.jacobian();
+  // J^2 over the square of the larger one: the difference of the two would lose digits.
+  const Lanes middle = jacobian * jacobian / (0.5 * (a + b) + stdx::sqrt(half * half + c * c));
+  const Lanes corner = now.narrowest_corner(frame_) / jacobian;
+  return middle * corner * stdx::abs(corner);
+}
+
+double LocationCells::wave_speed_at_rest(const Body<2>& body, const MeshNodes<2>& nodes,
+                                         double floor) const
 {
   const double undeformed = body.law->wave_speed();
   Lanes fastest = undeformed * undeformed;
   for (LocalIndex b = 0; b < body.particles.blocks(); ++b) {
     const double* state = body.particles.state().block(b);
-    const Lanes least =
-        least_stretch_squared(body.particles.motion().block(b) + deformation_ * lane_count);
+    const Lanes least = stdx::max(least_stretch_squared(nodes, b), Lanes(floor * floor));
     Lanes here = body.law->fastest_wave_squared(state) / stdx::min(least, Lanes(1.0));
     stdx::where(load(state) == 0.0, here) = 0.0;  // padding
     fastest = stdx::max(fastest, here);

@@ -158,7 +158,10 @@ Carried<2> TotalLagrangian::carried() const
     const double* u = &fields_->updated[std::size_t(node) * NodeFields<2>::record_width];
     carried.kinetic_energy += 0.5 * mass * (u[0] * u[0] + u[1] * u[1]);
     carried.momentum += mass * Vec<2>(u[0], u[1]);
+    carried.added_mass += mass - first_masses_[std::size_t(node)];
   }
+  carried.kinetic_energy -= scaling_.work;
+  carried.momentum -= scaling_.impulse;
   for (std::size_t b = 0; b < cells_.size(); ++b)
     carried.elastic_energy += cells_[b].bending_energy(setup_.bodies[b], *nodes_);
   if (contact_)
@@ -174,7 +177,8 @@ void TotalLagrangian::check()
   double wave_speed = 0;
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     Body<2>& body = setup_.bodies[b];
-    wave_speed = std::max(wave_speed, cells_[b].wave_speed_at_rest(body));
+    wave_speed =
+        std::max(wave_speed, cells_[b].wave_speed_at_rest(body, *nodes_, setup_.mass_scaling));
     const auto beyond = present_deformation(body).beyond_bounds;
     if (!beyond || loss_) continue;
     cells_[b].fill_motion(body, *nodes_, *fields_);
@@ -204,6 +208,50 @@ void TotalLagrangian::check()
   largest_speed_ = 0;
   checked_ = steps_;
   if (contact_) look_for_pairs(largest[4]);
+  if (setup_.mass_scaling > 0) scale_masses();
+}
+
+/// Velocities stay; what the new masses bring along is booked as if it came from outside.
+void TotalLagrangian::scale_masses()
+{
+  constexpr int corners = LocationMesh<2>::corners;
+  const double bound = setup_.mass_scaling * setup_.mass_scaling;
+  const std::vector<double> before(fields_->mass.begin(), fields_->mass.end());
+  std::fill(fields_->mass.begin(), fields_->mass.end(), 0.0);
+  for (std::size_t b = 0; b < cells_.size(); ++b) {
+    const ParticleStore& particles = setup_.bodies[b].particles;
+    const int mass = particles.motion().find("mass");
+    for (LocalIndex block = 0; block < particles.blocks(); ++block) {
+      const Lanes least = cells_[b].least_stretch_squared(*nodes_, block);
+      if (stdx::none_of(least < bound)) [[likely]]
+        continue;
+      // A cell at the point of being turned inside out becomes no heavier than this.
+      constexpr double least_of_all = 1e-4;
+      const Lanes added = load(particles.motion().block(block) + mass * lane_count) *
+                          (stdx::max(bound / stdx::max(least, Lanes(least_of_all)), Lanes(1.0)) - 1.0);
+      const LocalIndex* node = &cells_[b].corner_nodes()[std::size_t(block) * corners * lane_count];
+      const int count =
+          std::min<LocalIndex>(lane_count, particles.size() - block * lane_count);
+      for (int lane = 0; lane < count; ++lane)
+        for (int c = 0; c < corners; ++c)
+          fields_->mass_of(node[c * lane_count + lane]) += added[lane] / corners;
+    }
+  }
+  halo_->sum(std::array{fields_->mass_column()});
+  for (LocalIndex node = 0; node < nodes_->size(); ++node) {
+    double& mass = fields_->mass_of(node);
+    mass += first_masses_[std::size_t(node)];
+    const double more = mass - before[std::size_t(node)];
+    if (more == 0) continue;
+    const double* u = fields_->updated_of(node);
+    for (int d = 0; d < 2; ++d) {
+      fields_->momentum_column().values[std::size_t(node) * NodeFields<2>::record_width +
+                                        std::size_t(d)] = mass * u[d];
+      if (!nodes_->is_owned(node)) continue;
+      scaling_.impulse[d] += more * u[d];
+      scaling_.work += 0.5 * more * u[d] * u[d];
+    }
+  }
 }
 
 /// Pairs stay until a node may have gone half the skin before the next check.
@@ -267,6 +315,10 @@ void TotalLagrangian::archive(Archive& archive)
     setup_.bodies[b].particles.archive(archive);
   }
   archive.value("damped", damped_);
+  {
+    const Archive::Section section(archive, "scaling");
+    scaling_.archive(archive);
+  }
   archive.values("damping_forces", damping_forces_);
   {
     const Archive::Section section(archive, "nodes");

@@ -194,6 +194,7 @@ void TotalLagrangian::add_masses()
       }
   }
   halo_->sum(std::array{fields_->mass_column(), fields_->momentum_column()});
+  first_masses_.assign(fields_->mass.begin(), fields_->mass.end());
   for (LocalIndex node = 0; node < nodes_->size(); ++node)
     for (int d = 0; d < 2; ++d)
       fields_->updated_of(node)[d] =

@@ -45,6 +45,11 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 "of the swing of two cells that touch, over critical; what it takes is booked")
           .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
                  "formulation: total_lagrangian"}),
+      member<N>("mass_scaling", &N::mass_scaling, {.bound = from_to(0, 1)},
+                "cells with a smaller least stretch are made heavier, by the square of this over "
+                "it, so that they do not shorten the step; 0: none")
+          .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
+                 "formulation: total_lagrangian"}),
       member<N>("plane", &N::plane, {}, "plane strain or plane stress").in_plane(),
       member<N>("thickness", &N::thickness, {.quantity = Quantity::length, .bound = above(0)},
                 "out of the plane")

@@ -41,8 +41,12 @@ class LocationCells {
   double bending_energy(const Body<2>& body, const MeshNodes<2>& nodes) const;
   /// The present places and velocities of the cells' centres.
   void fill_motion(Body<2>& body, const MeshNodes<2>& nodes, const NodeFields<2>& fields) const;
-  /// m/s, of the fastest wave across a cell, as if it had the size that it has at rest.
-  double wave_speed_at_rest(const Body<2>& body) const;
+  /// Squares of the least stretch of the cells of one block: in the middle, and less where a corner
+  /// is narrower.
+  Lanes least_stretch_squared(const MeshNodes<2>& nodes, LocalIndex block) const;
+  /// m/s, of the fastest wave across a cell, as if it had the size that it has at rest; stretches
+  /// below `floor` count as that.
+  double wave_speed_at_rest(const Body<2>& body, const MeshNodes<2>& nodes, double floor) const;
 
   /// [blocks * corners * lanes]; lanes of padding name those of a real cell.
   const std::vector<LocalIndex>& corner_nodes() const { return corner_nodes_; }

@@ -27,6 +27,9 @@ class TotalLagrangian final : public Formulation<2> {
     double contact_stiffness = 2;
     /// Of the overlaps' swing, over critical.
     double contact_damping = 0.1;
+    /// Cells with a smaller least stretch are made heavier by the square of this over it, so that
+    /// they do not shorten the step. 0: none.
+    double mass_scaling = 0.3;
   };
 
   TotalLagrangian(Decomposition<2> decomposition, Setup setup);
@@ -65,6 +68,7 @@ class TotalLagrangian final : public Formulation<2> {
   void book_damping(double dt);
   void add_loads_on_particles();
   void look_for_pairs(double way);
+  void scale_masses();
   IndexVec<2> location_of(const Body<2>& body, LocalIndex particle) const;
   IndexVec<2> period() const;
   std::span<const NodeRun<2>> runs() const { return {&run_, 1}; }
@@ -86,6 +90,10 @@ class TotalLagrangian final : public Formulation<2> {
   std::optional<OverlapContact> contact_;
   std::vector<double> damping_forces_;  ///< N, of contact on this rank's nodes, [2 * nodes]
   double damped_ = 0;                   ///< J, that they have taken, of this rank's share
+
+  std::vector<double> first_masses_;  ///< kg, of the nodes
+  /// What heavier cells brought along, of this rank's nodes: J, kg m/s.
+  Reaction<2> scaling_;
 
   double time_ = 0, last_step_ = 0;
   GlobalIndex steps_ = 0;

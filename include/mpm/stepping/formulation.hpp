@@ -44,6 +44,7 @@ struct Carried {
   double kinetic_energy = 0;             ///< J
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
   double elastic_energy = 0;             ///< J, beside that of the particles' laws
+  double added_mass = 0;                 ///< kg, by which cells were made heavier for longer steps
   /// Of the contact of bodies with themselves and others, where there is one.
   struct OfContact {
     double energy = 0;           ///< J
