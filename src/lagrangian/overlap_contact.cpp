@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numeric>
 
 namespace mpm {
 
 namespace {
+
+constexpr int itself = 4;  ///< of the images
 
 /// Lower x, lower y, upper x, upper y, m.
 using Box = std::array<double, 4>;
@@ -33,6 +37,7 @@ OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec
                                const IndexVec<2>& period, double damping)
     : comm_(comm),
       ghosts_(comm),
+      side_ghosts_(comm),
       cells_(std::move(cells)),
       size_(size),
       period_(period),
@@ -58,12 +63,7 @@ void OverlapContact::take_places(const MeshNodes<2>& nodes)
 bool OverlapContact::can_meet(LocalIndex own, LocalIndex other) const
 {
   if (open_corners_[std::size_t(own)] == 0 && open_corners_[std::size_t(other)] == 0) return false;
-  IndexVec<2> apart = locations_[std::size_t(other)] - locations_[std::size_t(own)];
-  for (int d = 0; d < 2; ++d)
-    if (period_[d] > 0) {
-      if (apart[d] > period_[d] / 2) apart[d] -= period_[d];
-      if (apart[d] < -period_[d] / 2) apart[d] += period_[d];
-    }
+  const IndexVec<2> apart = this->apart(own, other);
   if (apart.cwiseAbs().maxCoeff() > 1) return true;
   if (apart[0] == 0 || apart[1] == 0) return false;
   const int corner = (apart[0] > 0 ? 1 : 0) + (apart[1] > 0 ? 2 : 0);
@@ -87,6 +87,7 @@ void OverlapContact::find_pairs(const MeshNodes<2>& nodes, double skin)
   stiffness_.resize(own);
   locations_.resize(own);
   open_corners_.resize(own);
+  images_.assign(own, itself);
   for (std::size_t c = 0; c < own; ++c) {
     stiffness_[c] = cells_[c].stiffness;
     locations_[c] = cells_[c].location;
@@ -98,7 +99,6 @@ void OverlapContact::find_pairs(const MeshNodes<2>& nodes, double skin)
   find_boxes();
   list_pairs(skin);
   keep_needed(std::move(peers));
-  pressure_.assign(stiffness_.size(), 0.0);
   // What the overlaps were before is not known of pairs that are new: none counts as changed.
   areas_.clear();
 }
@@ -124,7 +124,6 @@ Vec<2> OverlapContact::shift_of(int image) const
 std::vector<Ghosts::Peer> OverlapContact::add_candidates(double skin)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  constexpr int itself = 4;
   const int ranks = ranks_of(comm_), me = rank_of(comm_);
   Box mine{infinity, infinity, -infinity, -infinity};
   for (std::size_t c = 0; c < cells_.size(); ++c)
@@ -152,13 +151,13 @@ std::vector<Ghosts::Peer> OverlapContact::add_candidates(double skin)
         std::vector<double>& list = out[std::size_t(r)];
         const Cell& cell = cells_[std::size_t(c)];
         list.insert(list.end(), {double(cell.location[0]), double(cell.location[1]),
-                                 cell.stiffness, double(cell.open_corners)});
+                                 cell.stiffness, double(cell.open_corners), double(image)});
         for (int k = 0; k < corner_values; ++k)
           list.push_back(corners_of(c)[k] + shift[k < 4 ? 0 : 1]);
       }
     }
   const auto in = traded_over_ranks(comm_, out);
-  constexpr std::size_t values = 4 + corner_values;
+  constexpr std::size_t values = 5 + corner_values;
   for (int r = 0; r < ranks; ++r) {
     const std::vector<double>& list = in[std::size_t(r)];
     Ghosts::Peer& peer = peers[std::size_t(r)];
@@ -169,7 +168,8 @@ std::vector<Ghosts::Peer> OverlapContact::add_candidates(double skin)
       locations_.push_back({LocalIndex(list[k]), LocalIndex(list[k + 1])});
       stiffness_.push_back(list[k + 2]);
       open_corners_.push_back(unsigned(list[k + 3]));
-      corners_.insert(corners_.end(), &list[k + 4], &list[k + 4] + corner_values);
+      images_.push_back(int(list[k + 4]));
+      corners_.insert(corners_.end(), &list[k + 5], &list[k + 5] + corner_values);
     }
   }
   return peers;
@@ -207,37 +207,87 @@ void OverlapContact::list_pairs(double skin)
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
 }
 
-/// Candidates without a pair go; their owners are told which are left.
+/// Candidates without a pair go, and their owners are told which are left; and of which pairs this
+/// rank must know what their other side comes to.
 void OverlapContact::keep_needed(std::vector<Ghosts::Peer> peers)
 {
-  std::vector<char> needed(stiffness_.size(), 0);
-  for (const Pair& pair : pairs_) needed[std::size_t(pair.second)] = 1;
+  std::vector<std::vector<LocalIndex>> pairs_of(stiffness_.size());
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    pairs_of[std::size_t(pairs_[k].second)].push_back(LocalIndex(k));
+  const auto count = LocalIndex(pairs_.size());
+  second_side_.assign(pairs_.size(), 0);
+  LocalIndex next_side = count + 1;  // behind the first sides and a zero
+  for (LocalIndex c = 0; c < cells(); ++c)
+    for (const LocalIndex k : pairs_of[std::size_t(c)]) second_side_[std::size_t(k)] = next_side++;
+
   std::vector<std::vector<double>> out(peers.size());
-  std::vector<LocalIndex> number(stiffness_.size());
+  std::vector<Ghosts::Peer> sides(peers.size());
   LocalIndex next = cells();
-  for (LocalIndex c = 0; c < next; ++c) number[std::size_t(c)] = c;
   for (Ghosts::Peer& peer : peers) {
+    std::vector<double>& list = out[std::size_t(peer.rank)];
+    Ghosts::Peer& side = sides[std::size_t(peer.rank)];
+    side.rank = peer.rank;
+    side.first = next_side;
     const LocalIndex first = next;
     for (LocalIndex k = 0; k < peer.count; ++k) {
       const auto ghost = std::size_t(peer.first + k);
-      if (!needed[ghost]) continue;
-      out[std::size_t(peer.rank)].push_back(k);
-      number[ghost] = next;
-      stiffness_[std::size_t(next++)] = stiffness_[ghost];
+      if (pairs_of[ghost].empty()) continue;
+      list.insert(list.end(), {double(k), double(pairs_of[ghost].size())});
+      for (const LocalIndex pair : pairs_of[ghost]) {
+        const IndexVec<2>& at = locations_[std::size_t(pairs_[std::size_t(pair)].first)];
+        list.insert(list.end(), {double(at[0]), double(at[1])});
+        pairs_[std::size_t(pair)].second = next;
+        second_side_[std::size_t(pair)] = next_side++;
+      }
+      stiffness_[std::size_t(next)] = stiffness_[ghost];
+      locations_[std::size_t(next)] = locations_[ghost];
+      images_[std::size_t(next++)] = images_[ghost];
     }
     peer.first = first;
     peer.count = next - first;
+    side.count = next_side - side.first;
   }
-  for (Pair& pair : pairs_) pair.second = number[std::size_t(pair.second)];
   stiffness_.resize(std::size_t(next));
+  locations_.resize(std::size_t(next));
+  images_.resize(std::size_t(next));
   corners_.resize(std::size_t(next) * corner_values);
-  const auto in = traded_over_ranks(comm_, out);
+  sides_.assign(std::size_t(next_side), 0.0);
+  answer(peers, traded_over_ranks(comm_, out), sides);
+  ghosts_.set(std::move(peers));
+  side_ghosts_.set(std::move(sides));
+}
+
+/// What the others asked for: cells of this rank, and for each the cells of theirs that it meets.
+void OverlapContact::answer(std::vector<Ghosts::Peer>& peers,
+                            const std::vector<std::vector<double>>& asked,
+                            std::vector<Ghosts::Peer>& sides) const
+{
+  std::map<std::array<LocalIndex, 4>, LocalIndex> numbers;  // by cell, the other's location, image
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const auto other = std::size_t(pairs_[k].second);
+    if (pairs_[k].second >= cells())
+      numbers[{pairs_[k].first, locations_[other][0], locations_[other][1], images_[other]}] =
+          LocalIndex(k);
+  }
   for (Ghosts::Peer& peer : peers) {
+    const std::vector<double>& list = asked[std::size_t(peer.rank)];
     std::vector<Ghosts::Sent> sent;
-    for (const double k : in[std::size_t(peer.rank)]) sent.push_back(peer.sent[std::size_t(k)]);
+    for (std::size_t at = 0; at < list.size();) {
+      const Ghosts::Sent& cell = peer.sent[std::size_t(list[at])];
+      sent.push_back(cell);
+      const auto met = std::size_t(list[at + 1]);
+      at += 2;
+      for (std::size_t k = 0; k < met; ++k, at += 2) {
+        // Seen from here, theirs is as far the other way.
+        const auto found = numbers.find({cell.item, LocalIndex(list[at]), LocalIndex(list[at + 1]),
+                                         2 * itself - cell.image});
+        // Where rounding keeps a pair out on this side it does not touch: the zero.
+        sides[std::size_t(peer.rank)].sent.push_back(
+            {found == numbers.end() ? LocalIndex(pairs_.size()) : found->second, itself});
+      }
+    }
     peer.sent = std::move(sent);
   }
-  ghosts_.set(std::move(peers));
 }
 
 void OverlapContact::find_overlaps()
@@ -287,21 +337,64 @@ void OverlapContact::measure(const MeshNodes<2>& nodes)
   });
   find_boxes();
   find_overlaps();
-  std::fill(pressure_.begin(), pressure_.end(), 0.0);
   std::swap(areas_, areas_before_);
   areas_.assign(pairs_.size(), 0.0);
+  std::fill(sides_.begin(), sides_.end(), 0.0);
   touching_ = 0;
+  std::vector<LocalIndex>& first = first_touch_;
+  first.assign(cells_.size() + 1, 0);
   for (std::size_t k = 0; k < near_.size(); ++k) {
     const double area = *overlap_of_pair(k);
     if (!(area > 0)) continue;
-    areas_[near_[k]] = area;
     const Pair& pair = pairs_[near_[k]];
-    for (const LocalIndex cell : {pair.first, pair.second})
-      pressure_[std::size_t(cell)] += stiffness_[std::size_t(cell)] / area_ * area;
+    areas_[near_[k]] = area;
+    ++first[std::size_t(pair.first)];
+    if (pair.second < cells()) ++first[std::size_t(pair.second)];
     touching_ += pair.second < cells() ? 2 : 1;
   }
   if (areas_before_.size() != areas_.size()) areas_before_ = areas_;
-  ghosts_.update(pressure_, 1);
+  std::exclusive_scan(first.begin(), first.end(), first.begin(), 0);
+  touches_.resize(std::size_t(first.back()));
+  std::vector<LocalIndex> next(first.begin(), first.end() - 1);
+  for (const std::size_t k : near_) {
+    if (areas_[k] == 0) continue;
+    const Pair& pair = pairs_[k];
+    touches_[std::size_t(next[std::size_t(pair.first)]++)] = {pair.second, LocalIndex(k),
+                                                              LocalIndex(k)};
+    if (pair.second < cells())
+      touches_[std::size_t(next[std::size_t(pair.second)]++)] = {pair.first, LocalIndex(k),
+                                                                 second_side_[k]};
+  }
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const std::span<const Touch> touches(&touches_[std::size_t(first[c])],
+                                         std::size_t(first[c + 1] - first[c]));
+    for (const Touch& touch : touches) {
+      double together = 0;
+      for (const Touch& beside : touches)
+        if (&beside == &touch || are_of_one_wall(beside.other, touch.other))
+          together += areas_[std::size_t(beside.pair)];
+      sides_[std::size_t(touch.side)] = stiffness_[c] / area_ * together;
+    }
+  }
+  side_ghosts_.update(sides_, 1);
+}
+
+/// Whether cells are so near in the lattice that what a third one presses them with adds up.
+bool OverlapContact::are_of_one_wall(LocalIndex a, LocalIndex b) const
+{
+  return apart(a, b).cwiseAbs().maxCoeff() <= 2;
+}
+
+/// In locations, the short way around where an axis is periodic.
+IndexVec<2> OverlapContact::apart(LocalIndex from, LocalIndex to) const
+{
+  IndexVec<2> apart = locations_[std::size_t(to)] - locations_[std::size_t(from)];
+  for (int d = 0; d < 2; ++d)
+    if (period_[d] > 0) {
+      if (apart[d] > period_[d] / 2) apart[d] -= period_[d];
+      if (apart[d] < -period_[d] / 2) apart[d] += period_[d];
+    }
+  return apart;
 }
 
 /// push(number, pair, derivative of the area by the corners of the first, of the second).
@@ -317,8 +410,9 @@ void OverlapContact::for_each_touching(const Push& push) const
 
 void OverlapContact::add_forces(NodeFields<2>& fields) const
 {
-  for_each_touching([&](std::size_t, const Pair& pair, const double* first, const double* second) {
-    const double push = pressure_[std::size_t(pair.first)] + pressure_[std::size_t(pair.second)];
+  for_each_touching([&](std::size_t number, const Pair& pair, const double* first,
+                        const double* second) {
+    const double push = pressure(number);
     const auto push_corners = [&](const Cell& cell, const double* derivative) {
       for (std::size_t c = 0; c < 4; ++c) {
         double* force = fields.force_of(cell.nodes[c]);
@@ -349,7 +443,7 @@ void OverlapContact::add_damping(NodeFields<2>& fields, double dt, std::span<dou
     const double stiffness = (stiffness_[a] + stiffness_[b]) / area_;
     // A corner on a surface has half of its cell's mass or so.
     const double wanted = 2 * damping_ * std::sqrt(stiffness * 0.5 * cells_[a].mass / squared) * rate;
-    const double push = std::max(wanted, -(pressure_[a] + pressure_[b]));
+    const double push = std::max(wanted, -pressure(number));
     const auto push_corners = [&](const Cell& cell, const double* derivative) {
       for (std::size_t c = 0; c < 4; ++c) {
         double* force = fields.force_of(cell.nodes[c]);
@@ -366,19 +460,19 @@ void OverlapContact::add_damping(NodeFields<2>& fields, double dt, std::span<dou
   });
 }
 
+/// Half of it where the pair has its other side elsewhere.
 double OverlapContact::energy() const
 {
   double energy = 0;
-  for (std::size_t c = 0; c < cells_.size(); ++c)
-    energy += pressure_[c] * pressure_[c] * area_ / (2 * stiffness_[c]);
+  for (const Touch& touch : touches_)
+    energy += 0.5 * areas_[std::size_t(touch.pair)] * sides_[std::size_t(touch.side)];
   return energy;
 }
 
 double OverlapContact::overlapped_area() const
 {
   double area = 0;
-  for (std::size_t c = 0; c < cells_.size(); ++c)
-    area += 0.5 * pressure_[c] * area_ / stiffness_[c];
+  for (const Touch& touch : touches_) area += 0.5 * areas_[std::size_t(touch.pair)];
   return area;
 }
 

@@ -285,8 +285,8 @@ Counters TotalLagrangian::counters() const
   Counters counters{0, halo_->traffic().messages, halo_->traffic().bytes,
                     halo_->traffic().waiting_seconds};
   if (contact_)
-    counters += {0, contact_->ghosts().messages(), contact_->ghosts().bytes_sent(),
-                 contact_->ghosts().waiting_seconds()};
+    counters += {0, contact_->messages(), contact_->bytes_sent(),
+                 contact_->waiting_seconds()};
   return counters;
 }
 

@@ -22,7 +22,8 @@ struct Scene {
   IndexVec<2> period{0, 0};
 };
 
-/// Cells thrown into a box in which they cannot but lie upon each other. No two are neighbours.
+/// Cells thrown into a box in which they cannot but lie upon each other. No two share a side, but
+/// many are near in the lattice.
 Scene thrown(unsigned seed, const IndexVec<2>& period)
 {
   Scene scene{.period = period};
@@ -56,7 +57,7 @@ Found contact_of(MPI_Comm comm, const Scene& scene)
     const LocalIndex first = LocalIndex(nodes.size());
     for (int k = 0; k < 4; ++k) nodes.push_back({0, 0});
     own.push_back(
-        {{first, first + 1, first + 2, first + 3}, IndexVec<2>(3 * c, 0), stiffness, 1.0, 15});
+        {{first, first + 1, first + 2, first + 3}, IndexVec<2>(2 * (c % 8), 2 * (c / 8)), stiffness, 1.0, 15});
     numbers.push_back(c);
   }
   MeshNodes<2> mesh(nodes, std::vector<char>(nodes.size(), 1), size, IndexVec<2>::Zero());

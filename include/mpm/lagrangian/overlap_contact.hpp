@@ -13,11 +13,12 @@
 
 namespace mpm {
 
-/// The potential is the sum over the cells near surfaces of S_c A_c^2 / (2 A0), with A_c the sum of the
-/// areas on which other cells lie on it that have no side in common with it, A0 the area of a cell
-/// at rest and S_c = kappa C times the thickness, C the modulus of the fastest wave: across a flush
-/// face its pressure is 2 kappa C times the depth over the size of a cell, however the lattices of
-/// the two sides lie to each other. No normals, no closest features: what the corners bear is its
+/// The potential is the sum over the cells c near surfaces of S_c / (2 A0) sum_d A_cd P_cd: A_cd is
+/// the area on which cell d lies on c, which has no side in common with it, P_cd that area and those
+/// of d's neighbours on c, A0 the area of a cell at rest and S_c = kappa C times the thickness, C the
+/// modulus of the fastest wave. Across a flush face the pressure is 2 kappa C times the depth over
+/// the size of a cell, however the lattices of the two sides lie to each other; what presses a cell
+/// from elsewhere does not enter. No normals, no closest features: what the corners bear is the
 /// derivative.
 ///
 /// Each rank keeps the pairs of its own cells with others; of those on other ranks, and of
@@ -56,7 +57,12 @@ class OverlapContact {
   double overlapped_area() const;  ///< m^2; every overlap counts once on either cell, half each
   GlobalIndex touching() const { return touching_; }  ///< pairs, with others' halves
 
-  const Ghosts& ghosts() const { return ghosts_; }
+  GlobalIndex messages() const { return ghosts_.messages() + side_ghosts_.messages(); }
+  GlobalIndex bytes_sent() const { return ghosts_.bytes_sent() + side_ghosts_.bytes_sent(); }
+  double waiting_seconds() const
+  {
+    return ghosts_.waiting_seconds() + side_ghosts_.waiting_seconds();
+  }
   std::size_t bytes() const;
 
  private:
@@ -76,18 +82,32 @@ class OverlapContact {
   LocalIndex cells() const { return LocalIndex(cells_.size()); }
   double* corners_of(LocalIndex cell) { return &corners_[std::size_t(cell) * corner_values]; }
   void take_places(const MeshNodes<2>& nodes);
+  IndexVec<2> apart(LocalIndex from, LocalIndex to) const;
   bool can_meet(LocalIndex own, LocalIndex other) const;
+  bool are_of_one_wall(LocalIndex a, LocalIndex b) const;
   void find_boxes();
   Vec<2> shift_of(int image) const;
   std::vector<Ghosts::Peer> add_candidates(double skin);
   void list_pairs(double skin);
   void keep_needed(std::vector<Ghosts::Peer> peers);
+  void answer(std::vector<Ghosts::Peer>& peers, const std::vector<std::vector<double>>& asked,
+              std::vector<Ghosts::Peer>& sides) const;
   void find_overlaps();
   template <class Push>
   void for_each_touching(const Push& push) const;
 
+  /// One cell of this rank in a pair that touches.
+  struct Touch {
+    LocalIndex other, pair, side;  ///< side: where in sides_
+  };
+  /// What presses in a pair, of both its sides, N/m.
+  double pressure(std::size_t pair) const
+  {
+    return sides_[pair] + sides_[std::size_t(second_side_[pair])];
+  }
+
   MPI_Comm comm_;
-  Ghosts ghosts_;
+  Ghosts ghosts_, side_ghosts_;
   std::vector<Cell> cells_;
   Vec<2> size_;
   IndexVec<2> period_;
@@ -98,14 +118,20 @@ class OverlapContact {
   /// Of this rank's cells, then of the ghosts.
   std::vector<double> corners_;   ///< [n * corner_values], m
   std::vector<std::array<double, 4>> boxes_;  ///< lower x, lower y, upper x, upper y, m
-  std::vector<double> pressure_;  ///< [n]: S_c A_c / A0, N/m
   std::vector<double> stiffness_;
   std::vector<IndexVec<2>> locations_;
   std::vector<unsigned> open_corners_;
+  std::vector<int> images_;
 
   std::vector<Pair> pairs_;
   std::vector<std::size_t> near_;   ///< those whose boxes meet
   std::vector<double> areas_, areas_before_;  ///< of all pairs, m^2
+  /// Of every pair the first cell's S_c P_cd / A0, N/m, a zero, and the second cells' as
+  /// `second_side_` has them: other ranks' last.
+  std::vector<double> sides_;
+  std::vector<LocalIndex> second_side_;
+  std::vector<Touch> touches_;  ///< of cell c from first_touch_[c] on
+  std::vector<LocalIndex> first_touch_;
   LaneVector<double> overlaps_;   ///< per lane_count pairs in near_: area and its 16 derivatives
   std::array<std::vector<double>, 2> places_then_;  ///< of nodes, m, when the pairs were found
   GlobalIndex touching_ = 0;
