@@ -34,15 +34,14 @@ Box box_of(const double* corners)
 }  // namespace
 
 OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec<2>& size,
-                               const IndexVec<2>& period, double damping)
+                               const IndexVec<2>& period)
     : comm_(comm),
       ghosts_(comm),
       side_ghosts_(comm),
       cells_(std::move(cells)),
       size_(size),
       period_(period),
-      area_(size[0] * size[1]),
-      damping_(damping)
+      area_(size[0] * size[1])
 {
 }
 
@@ -99,8 +98,6 @@ void OverlapContact::find_pairs(const MeshNodes<2>& nodes, double skin)
   find_boxes();
   list_pairs(skin);
   keep_needed(std::move(peers));
-  // What the overlaps were before is not known of pairs that are new: none counts as changed.
-  areas_.clear();
 }
 
 double OverlapContact::largest_way(const MeshNodes<2>& nodes) const
@@ -337,7 +334,6 @@ void OverlapContact::measure(const MeshNodes<2>& nodes)
   });
   find_boxes();
   find_overlaps();
-  std::swap(areas_, areas_before_);
   areas_.assign(pairs_.size(), 0.0);
   std::fill(sides_.begin(), sides_.end(), 0.0);
   touching_ = 0;
@@ -352,7 +348,6 @@ void OverlapContact::measure(const MeshNodes<2>& nodes)
     if (pair.second < cells()) ++first[std::size_t(pair.second)];
     touching_ += pair.second < cells() ? 2 : 1;
   }
-  if (areas_before_.size() != areas_.size()) areas_before_ = areas_;
   std::exclusive_scan(first.begin(), first.end(), first.begin(), 0);
   touches_.resize(std::size_t(first.back()));
   std::vector<LocalIndex> next(first.begin(), first.end() - 1);
@@ -397,22 +392,13 @@ IndexVec<2> OverlapContact::apart(LocalIndex from, LocalIndex to) const
   return apart;
 }
 
-/// push(number, pair, derivative of the area by the corners of the first, of the second).
-template <class Push>
-void OverlapContact::for_each_touching(const Push& push) const
+void OverlapContact::add_forces(NodeFields<2>& fields) const
 {
   for (std::size_t k = 0; k < near_.size(); ++k) {
     const double* values = overlap_of_pair(k);
-    if (*values > 0)
-      push(near_[k], pairs_[near_[k]], values + lane_count, values + 9 * lane_count);
-  }
-}
-
-void OverlapContact::add_forces(NodeFields<2>& fields) const
-{
-  for_each_touching([&](std::size_t number, const Pair& pair, const double* first,
-                        const double* second) {
-    const double push = pressure(number);
+    if (!(*values > 0)) continue;
+    const Pair& pair = pairs_[near_[k]];
+    const double push = pressure(near_[k]);
     const auto push_corners = [&](const Cell& cell, const double* derivative) {
       for (std::size_t c = 0; c < 4; ++c) {
         double* force = fields.force_of(cell.nodes[c]);
@@ -420,44 +406,10 @@ void OverlapContact::add_forces(NodeFields<2>& fields) const
         force[1] -= push * derivative[(c + 4) * lane_count];
       }
     };
-    push_corners(cells_[std::size_t(pair.first)], first);
-    if (pair.second < cells()) push_corners(cells_[std::size_t(pair.second)], second);
-  });
-}
-
-/// With the stiffness k = (S_c + S_d)/A0 against an overlap A and the corners' masses m, along
-/// g = dA/dx: m x'' = -k A g, so that A'' = -(k g.g/m) A, and 2 zeta sqrt(k m/(g.g)) A' damps it by
-/// zeta.
-void OverlapContact::add_damping(NodeFields<2>& fields, double dt, std::span<double> forces) const
-{
-  if (damping_ == 0) return;
-  for_each_touching([&](std::size_t number, const Pair& pair, const double* first,
-                        const double* second) {
-    const double rate = (areas_[number] - areas_before_[number]) / dt;
-    const auto a = std::size_t(pair.first), b = std::size_t(pair.second);
-    double squared = 0;
-    for (std::size_t c = 0; c < 8; ++c)
-      squared += first[c * lane_count] * first[c * lane_count] +
-                 second[c * lane_count] * second[c * lane_count];
-    if (squared == 0) return;
-    const double stiffness = (stiffness_[a] + stiffness_[b]) / area_;
-    // A corner on a surface has half of its cell's mass or so.
-    const double wanted = 2 * damping_ * std::sqrt(stiffness * 0.5 * cells_[a].mass / squared) * rate;
-    const double push = std::max(wanted, -pressure(number));
-    const auto push_corners = [&](const Cell& cell, const double* derivative) {
-      for (std::size_t c = 0; c < 4; ++c) {
-        double* force = fields.force_of(cell.nodes[c]);
-        double* booked = &forces[2 * std::size_t(cell.nodes[c])];
-        for (std::size_t d = 0; d < 2; ++d) {
-          const double f = -push * derivative[(c + 4 * d) * lane_count];
-          force[d] += f;
-          booked[d] += f;
-        }
-      }
-    };
-    push_corners(cells_[a], first);
-    if (pair.second < cells()) push_corners(cells_[b], second);
-  });
+    push_corners(cells_[std::size_t(pair.first)], values + lane_count);
+    if (pair.second < cells())
+      push_corners(cells_[std::size_t(pair.second)], values + 9 * lane_count);
+  }
 }
 
 /// Half of it where the pair has its other side elsewhere.

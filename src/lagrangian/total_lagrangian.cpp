@@ -42,7 +42,6 @@ void TotalLagrangian::step(double dt)
   for (const auto& condition : setup_.slots.conditions)
     condition->stop(*nodes_, *fields_, time_, dt);
   setup_.slots.loads.book(*nodes_, runs(), *fields_, between);
-  book_damping(between);
   largest_speed_ = std::max(largest_speed_, nodes_->move(*fields_, dt));
   fields_->carry_momentum(runs());
   particles_are_present_ = false;
@@ -70,24 +69,11 @@ void TotalLagrangian::add_forces(double dt)
   if (contact_) {
     contact_->measure(*nodes_);
     contact_->add_forces(*fields_);
-    contact_->add_damping(*fields_, dt, damping_forces_);
   }
   std::vector<NodeColumn> columns{fields_->force_column()};
   if (setup_.slots.loads.act_on_particles()) columns.push_back(fields_->load_force_column());
   add_loads_on_particles();
   halo_->sum(columns);
-}
-
-/// The work of the damping forces of the step's start, with the mean of the velocities that they lead
-/// from and to, as the kinetic energy has it.
-void TotalLagrangian::book_damping(double dt)
-{
-  for (std::size_t k = 0; k < damping_forces_.size(); ++k) {
-    if (damping_forces_[k] == 0) continue;
-    const double* u = fields_->updated_of(LocalIndex(k / 2));
-    damped_ -= dt * damping_forces_[k] * (u[k % 2] - 0.5 * u[2 + k % 2]);
-    damping_forces_[k] = 0;
-  }
 }
 
 /// f_i of the cells at a node, and no load yet.
@@ -165,8 +151,7 @@ Carried<2> TotalLagrangian::carried() const
   for (std::size_t b = 0; b < cells_.size(); ++b)
     carried.elastic_energy += cells_[b].bending_energy(setup_.bodies[b], *nodes_);
   if (contact_)
-    carried.contact = {contact_->energy(), damped_, contact_->overlapped_area(),
-                       contact_->touching()};
+    carried.contact = {contact_->energy(), contact_->overlapped_area(), contact_->touching()};
   return carried;
 }
 
@@ -314,12 +299,10 @@ void TotalLagrangian::archive(Archive& archive)
     const Archive::Section section(archive, "body" + std::to_string(b));
     setup_.bodies[b].particles.archive(archive);
   }
-  archive.value("damped", damped_);
   {
     const Archive::Section section(archive, "scaling");
     scaling_.archive(archive);
   }
-  archive.values("damping_forces", damping_forces_);
   {
     const Archive::Section section(archive, "nodes");
     nodes_->archive(archive);

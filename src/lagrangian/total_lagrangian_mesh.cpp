@@ -123,7 +123,6 @@ void TotalLagrangian::make_contact(const std::vector<LocationCells::CellNodes>& 
   std::size_t number = 0;
   for (const Body<2>& body : setup_.bodies) {
     const double wave = body.law->wave_speed();
-    const int mass = body.particles.motion().find("mass");
     const double stiffness =
         setup_.contact_stiffness * body.density * wave * wave * setup_.thickness;
     for (LocalIndex p = 0; p < body.particles.size(); ++p, ++number) {
@@ -138,13 +137,10 @@ void TotalLagrangian::make_contact(const std::vector<LocationCells::CellNodes>& 
       near.push_back({{n[0], n[1], n[3], n[2]},
                       location,
                       stiffness,
-                      body.particles.motion()(mass, p),
                       open_corners(location)});
     }
   }
-  contact_.emplace(decomposition_.comm(), std::move(near), setup_.location_size, period,
-                   setup_.contact_damping);
-  damping_forces_.assign(2 * std::size_t(nodes_->size()), 0.0);
+  contact_.emplace(decomposition_.comm(), std::move(near), setup_.location_size, period);
 }
 
 void TotalLagrangian::list_node_terms()

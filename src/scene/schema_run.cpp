@@ -41,10 +41,6 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 "a location is the pressure across a flush contact; 0: no contact")
           .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
                  "formulation: total_lagrangian"}),
-      member<N>("contact_damping", &N::contact_damping, {.bound = from_to(0, 1)},
-                "of the swing of two cells that touch, over critical; what it takes is booked")
-          .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
-                 "formulation: total_lagrangian"}),
       member<N>("mass_scaling", &N::mass_scaling, {.bound = from_to(0, 1)},
                 "cells with a smaller least stretch are made heavier, by the square of this over "
                 "it, so that they do not shorten the step; 0: none")

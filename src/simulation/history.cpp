@@ -44,7 +44,6 @@ constexpr Member<double> measured[] = {{"time", &HistoryLine::time},
                                        {"plastic_work", &HistoryLine::plastic_work},
                                        {"external_work", &HistoryLine::external_work},
                                        {"contact_energy", &HistoryLine::contact_energy},
-                                       {"contact_dissipation", &HistoryLine::contact_dissipation},
                                        {"overlapped_area", &HistoryLine::overlapped_area},
                                        {"energy_error", &HistoryLine::energy_error},
                                        {"momentum_error", &HistoryLine::momentum_error},
@@ -88,7 +87,6 @@ std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind)
     list.push_back({energy, "J"});
   if (kind.contact) {
     list.push_back({"contact_energy", "J"});
-    list.push_back({"contact_dissipation", "J"});
     list.push_back({"overlapped_area", "m2"});
     list.push_back({"contact_pairs", "1"});
   }
@@ -114,7 +112,7 @@ std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind
                                line.external_work});
   if (kind.contact)
     values.insert(values.end(),
-                  {line.contact_energy, line.contact_dissipation, line.overlapped_area, double(line.contact_pairs)});
+                  {line.contact_energy, line.overlapped_area, double(line.contact_pairs)});
   values.insert(values.end(),
                 {line.energy_error, line.momentum_error, double(line.particles), line.time_step});
   if (kind.piston)
@@ -214,8 +212,8 @@ void History<Dim>::begin_line(HistoryLine& line)
 template <int Dim>
 double History<Dim>::surplus(const Sums<Dim>& sums) const
 {
-  return sums.kinetic_energy + sums.stress_work() + sums.damped() - external_work_ -
-         start_.kinetic_energy - start_.stress_work();
+  return sums.kinetic_energy + sums.stress_work() - external_work_ - start_.kinetic_energy -
+         start_.stress_work();
 }
 
 template <int Dim>
@@ -249,7 +247,6 @@ const HistoryLine& History<Dim>::record(double dt)
   line.plastic_work = sums.plastic_work;
   if (sums.contact) {
     line.contact_energy = sums.contact->energy;
-    line.contact_dissipation = sums.contact->dissipated;
     line.overlapped_area = sums.contact->overlapped_area;
     line.contact_pairs = sums.contact->pairs;
   }

@@ -18,7 +18,6 @@ std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
           TotalLagrangian::Setup{std::move(model.bodies), std::move(model.slots),
                                  layout.location_size, scene.numerics.thickness,
                                  scene.numerics.contact_stiffness,
-                                 scene.numerics.contact_damping,
                                  scene.numerics.mass_scaling});
   typename UpdatedLagrangian<Dim>::Setup setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);

@@ -57,7 +57,7 @@ Found contact_of(MPI_Comm comm, const Scene& scene)
     const LocalIndex first = LocalIndex(nodes.size());
     for (int k = 0; k < 4; ++k) nodes.push_back({0, 0});
     own.push_back(
-        {{first, first + 1, first + 2, first + 3}, IndexVec<2>(2 * (c % 8), 2 * (c / 8)), stiffness, 1.0, 15});
+        {{first, first + 1, first + 2, first + 3}, IndexVec<2>(2 * (c % 8), 2 * (c / 8)), stiffness, 15});
     numbers.push_back(c);
   }
   MeshNodes<2> mesh(nodes, std::vector<char>(nodes.size(), 1), size, IndexVec<2>::Zero());
@@ -66,7 +66,7 @@ Found contact_of(MPI_Comm comm, const Scene& scene)
     for (int d = 0; d < 2; ++d)
       fields.updated_of(LocalIndex(n))[d] = scene.corners(d, 4 * numbers[n / 4] + int(n % 4));
   mesh.move(fields, 1);
-  OverlapContact contact(comm, own, size, scene.period, 0);
+  OverlapContact contact(comm, own, size, scene.period);
   contact.find_pairs(mesh, skin);
   contact.measure(mesh);
   contact.add_forces(fields);
@@ -146,7 +146,7 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
           places.push_back(lower + corner.cwiseProduct(size));
         // Cells of a row are neighbours; the rows are not.
         surface.push_back(
-            {{first, first + 1, first + 2, first + 3}, IndexVec<2>(c, 5 * row), stiffness, 1.0, 15});
+            {{first, first + 1, first + 2, first + 3}, IndexVec<2>(c, 5 * row), stiffness, 15});
       }
     MeshNodes<2> mesh(std::vector<IndexVec<2>>(places.size(), IndexVec<2>::Zero()),
                       std::vector<char>(places.size(), 1), size, IndexVec<2>::Zero());
@@ -154,7 +154,7 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
     for (std::size_t n = 0; n < places.size(); ++n)
       for (int d = 0; d < 2; ++d) fields.updated_of(LocalIndex(n))[d] = places[n][d];
     mesh.move(fields, 1);
-    OverlapContact contact(MPI_COMM_SELF, surface, size, IndexVec<2>::Zero(), 0);
+    OverlapContact contact(MPI_COMM_SELF, surface, size, IndexVec<2>::Zero());
     contact.find_pairs(mesh, skin);
     contact.measure(mesh);
     contact.add_forces(fields);

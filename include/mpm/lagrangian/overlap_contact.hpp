@@ -8,7 +8,6 @@
 #include <mpm/parallel/ghosts.hpp>
 
 #include <array>
-#include <span>
 #include <vector>
 
 namespace mpm {
@@ -29,16 +28,14 @@ class OverlapContact {
     std::array<LocalIndex, 4> nodes;  ///< counter-clockwise
     IndexVec<2> location;
     double stiffness;  ///< S_c, N/m
-    double mass;       ///< kg
     /// Bit k: on one side at least of the diagonal neighbour towards corner k (bit 0 of k: upper
     /// along x, bit 1: along y) there is nothing. 0: a cell behind the outer layer.
     unsigned open_corners;
   };
 
-  /// This rank's cells near surfaces; `size` of a location, m, and `period` in locations; `damping`
-  /// over that at which an overlap would go back without a swing.
+  /// This rank's cells near surfaces; `size` of a location, m, and `period` in locations.
   OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec<2>& size,
-                 const IndexVec<2>& period, double damping);
+                 const IndexVec<2>& period);
 
   /// Finds all pairs that can meet before a node has moved by half of `skin`, m. Collective.
   void find_pairs(const MeshNodes<2>& nodes, double skin);
@@ -50,9 +47,6 @@ class OverlapContact {
 
   // At the last call of `measure`, of this rank's cells.
   void add_forces(NodeFields<2>& fields) const;
-  /// Adds forces against the change of the overlaps in the last step, of `dt`, to the fields and to
-  /// `forces`, N, [2 * nodes]. They never pull.
-  void add_damping(NodeFields<2>& fields, double dt, std::span<double> forces) const;
   double energy() const;           ///< J
   double overlapped_area() const;  ///< m^2; every overlap counts once on either cell, half each
   GlobalIndex touching() const { return touching_; }  ///< pairs, with others' halves
@@ -93,8 +87,6 @@ class OverlapContact {
   void answer(std::vector<Ghosts::Peer>& peers, const std::vector<std::vector<double>>& asked,
               std::vector<Ghosts::Peer>& sides) const;
   void find_overlaps();
-  template <class Push>
-  void for_each_touching(const Push& push) const;
 
   /// One cell of this rank in a pair that touches.
   struct Touch {
@@ -112,7 +104,6 @@ class OverlapContact {
   Vec<2> size_;
   IndexVec<2> period_;
   double area_;  ///< m^2, of a cell at rest
-  double damping_;
   double skin_ = 0;
 
   /// Of this rank's cells, then of the ghosts.
@@ -125,7 +116,7 @@ class OverlapContact {
 
   std::vector<Pair> pairs_;
   std::vector<std::size_t> near_;   ///< those whose boxes meet
-  std::vector<double> areas_, areas_before_;  ///< of all pairs, m^2
+  std::vector<double> areas_;       ///< of all pairs, m^2
   /// Of every pair the first cell's S_c P_cd / A0, N/m, a zero, and the second cells' as
   /// `second_side_` has them: other ranks' last.
   std::vector<double> sides_;

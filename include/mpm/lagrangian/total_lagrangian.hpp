@@ -24,12 +24,10 @@ class TotalLagrangian final : public Formulation<2> {
     double thickness = 1;  ///< m
     /// kappa: across a flush face the pressure of contact is 2 kappa C times the depth over the
     /// size of a location. 0: bodies go through each other.
-    double contact_stiffness = 2;
-    /// Of the overlaps' swing, over critical.
-    double contact_damping = 0.1;
+    double contact_stiffness = 4;
     /// Cells with a smaller least stretch are made heavier by the square of this over it, so that
     /// they do not shorten the step. 0: none.
-    double mass_scaling = 0.3;
+    double mass_scaling = 0.5;
   };
 
   TotalLagrangian(Decomposition<2> decomposition, Setup setup);
@@ -65,7 +63,6 @@ class TotalLagrangian final : public Formulation<2> {
   void add_masses();
   void add_forces(double dt);
   void gather_cell_forces();
-  void book_damping(double dt);
   void add_loads_on_particles();
   void look_for_pairs(double way);
   void scale_masses();
@@ -88,8 +85,6 @@ class TotalLagrangian final : public Formulation<2> {
   /// Per lane_count nodes and corner: where in cell_forces_ the x component stands.
   std::vector<std::int32_t> node_terms_;
   std::optional<OverlapContact> contact_;
-  std::vector<double> damping_forces_;  ///< N, of contact on this rank's nodes, [2 * nodes]
-  double damped_ = 0;                   ///< J, that they have taken, of this rank's share
 
   std::vector<double> first_masses_;  ///< kg, of the nodes
   /// What heavier cells brought along, of this rank's nodes: J, kg m/s.

@@ -27,8 +27,6 @@ struct Sums {
   {
     return elastic_energy + plastic_work + (contact ? contact->energy : 0.0);
   }
-  /// J, taken at the moment of the velocities.
-  double damped() const { return contact ? contact->dissipated : 0.0; }
 };
 
 /// Over all ranks. Collective.

@@ -48,7 +48,6 @@ struct Carried {
   /// Of the contact of bodies with themselves and others, where there is one.
   struct OfContact {
     double energy = 0;           ///< J
-    double dissipated = 0;       ///< J, since the start
     double overlapped_area = 0;  ///< m^2; in space volume, m^3
     GlobalIndex pairs = 0;       ///< of cells that touch; each counts for either cell
   };
