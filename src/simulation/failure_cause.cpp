@@ -37,14 +37,14 @@ std::string likely_cause(const Preparation<Dim>& preparation, GlobalIndex partic
   const auto limit = stable_cfl_of(numerics);
   if (limit && layout.cfl > *limit)
     return fmt::format(
-        " Likely cause: numerics.cfl is {:.3g}, beyond {:.3g}, the limit of {} with {} and {}. "
-        "Leave it out: the default keeps a margin.",
-        layout.cfl, *limit, numerics.shape_function->keyword, numerics.scheme->keyword,
-        numerics.update_order->keyword);
+        " Likely cause: numerics.cfl is {:.3g}, beyond {:.3g}, the limit of {}. Leave it out: the "
+        "default keeps a margin.",
+        layout.cfl, *limit, limited_by(numerics));
   if (layout.largest_speed > layout.wave_speed)
     return fmt::format(
         " Likely cause: {:.3g} m/s is faster than the fastest wave, {:.3g} m/s. Lower the speed.",
         layout.largest_speed, layout.wave_speed);
+  if (is_total_lagrangian(numerics)) return "";
   if (was_thin(preparation, particle))
     return " Likely cause: the wall is thinner than two cells where this particle was at the "
            "start. Refine grid.cells.";

@@ -173,7 +173,7 @@ Layout<Dim> make_layout(const scene::Scene& scene, const micrograph::Specimen<Di
   measure_materials(scene, specimen, layout);
   layout.cfl = default_cfl(scene.numerics);
   layout.crossed_in_step =
-      scene.numerics.formulation == scene::FormulationKind::total_lagrangian
+      is_total_lagrangian(scene.numerics)
           ? layout.location_size.minCoeff()
           : layout.geometry.smallest_spacing();
   if (loading) {

@@ -12,7 +12,7 @@ std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
                                                    Model<Dim> model)
 {
   if constexpr (Dim == 2)
-    if (scene.numerics.formulation == scene::FormulationKind::total_lagrangian)
+    if (is_total_lagrangian(scene.numerics))
       return std::make_unique<TotalLagrangian>(
           decomposition,
           TotalLagrangian::Setup{std::move(model.bodies), std::move(model.slots),

@@ -196,19 +196,21 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
   Warnings warnings;
   look_at_walls(scene, specimen, share, warnings);
   look_at_speed(scene, specimen, layout, warnings);
-  look_at_order(scene.numerics, warnings);
-  look_at_locking(scene, warnings);
-  look_at_flight(scene, layout, warnings);
+  const bool on_a_grid = !is_total_lagrangian(scene.numerics);
+  if (on_a_grid) {
+    look_at_order(scene.numerics, warnings);
+    look_at_locking(scene, warnings);
+    look_at_flight(scene, layout, warnings);
+  }
   if (std::holds_alternative<scene::Loading>(scene.motion)) {
-    look_at_contact(scene, specimen, layout, share, warnings);
+    if (on_a_grid) look_at_contact(scene, specimen, layout, share, warnings);
     look_at_reach(scene, specimen, layout, share, warnings);
   }
   if (const auto limit = stable_cfl_of(scene.numerics); limit && layout.cfl > *limit)
     warnings.push_back(fmt::format(
-        "numerics.cfl is {:.3g}, beyond {:.3g}, the limit of {} with {} and {}: noise will grow. "
+        "numerics.cfl is {:.3g}, beyond {:.3g}, the limit of {}: noise will grow. "
         "Leave it out: the default keeps a margin.",
-        layout.cfl, *limit, scene.numerics.shape_function->keyword, scene.numerics.scheme->keyword,
-        scene.numerics.update_order->keyword));
+        layout.cfl, *limit, limited_by(scene.numerics)));
   if (const double steps = expected_steps(scene, layout); steps > many_steps)
     warnings.push_back(
         fmt::format("the run takes {:.2g} steps or more, over which rounding adds up. Raise the "

@@ -10,7 +10,10 @@
 
 namespace mpm {
 
-/// Of its shape function, scheme and update order together.
+bool is_total_lagrangian(const scene::Numerics& numerics);
+/// What limits the step, in words: shape function, scheme and update order, or contact.
+std::string limited_by(const scene::Numerics& numerics);
+/// Of its shape function, scheme and update order together, or of cells in contact.
 std::optional<double> stable_cfl_of(const scene::Numerics& numerics);
 double default_cfl(const scene::Numerics& numerics);
 /// When a step leaves the stresses, counted from the moment of the velocities, in steps.

@@ -1,0 +1,268 @@
+// Bodies of location cells that fly, turn, are crushed and meet, on any ranks.
+#include <mpm/conditions/rigid_wall.hpp>
+#include <mpm/core/error.hpp>
+#include <mpm/core/memory_archive.hpp>
+#include <mpm/lagrangian/total_lagrangian.hpp>
+#include <mpm/materials/hencky.hpp>
+#include <mpm/parallel/session.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace mpm {
+namespace {
+
+constexpr double cell = 1e-3, youngs_modulus = 1e9, density = 1000;
+const Vec<2> size(0.5e-3, 0.5e-3);
+const IndexVec<2> grid_cells(24, 16);
+
+/// Three in a row and two rows for six ranks, so that corners are crossed.
+IndexVec<2> two_rows()
+{
+  const int ranks = ranks_of(MPI_COMM_WORLD);
+  return ranks % 2 == 0 ? IndexVec<2>(ranks / 2, 2) : IndexVec<2>(ranks, 1);
+}
+
+Decomposition<2> shared_out(MPI_Comm comm, bool periodic = false)
+{
+  GridGeometry<2> geometry{Vec<2>::Zero(), Vec<2>::Constant(cell),
+                           (grid_cells.array() + 1).matrix()};
+  if (periodic) {
+    geometry.nodes[1] = grid_cells[1];
+    geometry.periodic[1] = true;
+  }
+  const bool alone = ranks_of(comm) == 1;
+  return {comm, geometry, alone ? IndexVec<2>(1, 1) : two_rows(), {}, {}};
+}
+
+/// A ring of a wall two locations thick with a bar in it, in one piece: lumens that fold.
+bool is_wall(int i, int j)
+{
+  return i < 2 || i >= 22 || j < 2 || j >= 18 || (i >= 11 && i < 13);
+}
+
+struct Scene {
+  int first_x = 6, first_y = 6;  ///< locations
+  Vec<2> velocity = Vec<2>::Zero();
+  double turning = 0;  ///< rad/s about its middle
+  std::optional<YieldConstants> yield{};
+  bool pressed = false;  ///< between two walls that come together
+  bool periodic = false;
+};
+
+constexpr double wall_speed = 40;
+
+class Ring {
+ public:
+  Ring(MPI_Comm comm, const Scene& scene) : comm_(comm)
+  {
+    const Decomposition<2> decomposition = shared_out(comm, scene.periodic);
+    TotalLagrangian::Setup setup{.bodies = {}, .location_size = size};
+    auto law = make_hencky(PlaneAssumption::strain, {youngs_modulus, 0.3}, density, scene.yield);
+    ParticleStore store(LocationCells::columns(*law), law->state_columns(),
+                        {"velocity", "mass", "initial_volume", "plastic_work"});
+    setup.bodies.push_back({"ring", 0, density, std::move(law), std::move(store)});
+    Body<2>& body = setup.bodies.back();
+    const Vec<2> middle(12 * size[0], 10 * size[1]);
+    GlobalIndex id = 0;
+    for (int j = 0; j < 20; ++j)
+      for (int i = 0; i < 24; ++i) {
+        if (!is_wall(i, j)) continue;
+        const GlobalIndex number = id++;
+        const IndexVec<2> at(scene.first_x + i, (scene.first_y + j) % 32);
+        const IndexVec<2> home(at[0] / 2, at[1] / 2);
+        if (decomposition.owner_of_cell(home) != decomposition.rank()) continue;
+        const LocalIndex p = body.particles.add(number);
+        ColumnGroup& motion = body.particles.motion();
+        const Vec<2> from_middle((i + 0.5) * size[0] - middle[0], (j + 0.5) * size[1] - middle[1]);
+        const std::array<double, 5> values{
+            (at[0] + 0.5) * size[0], (at[1] + 0.5) * size[1],
+            scene.velocity[0] - scene.turning * from_middle[1],
+            scene.velocity[1] + scene.turning * from_middle[0], density * size.prod()};
+        for (int c = 0; c < 5; ++c) motion(c, p) = values[std::size_t(c)];
+        LocationCells::initialise(motion, p);
+        body.particles.state()(0, p) = size.prod();
+        body.law->initialise(body.particles.state(), p);
+      }
+    body.particles.seal();
+    cells_ = id;
+    if (scene.pressed)
+      for (const bool upper : {false, true}) {
+        const double face = (scene.first_x + (upper ? 24 : 0)) * size[0];
+        setup.slots.conditions.push_back(std::make_unique<RigidWall<2>>(
+            WallPlacement{0, upper, face}, WallMotion{upper ? -wall_speed : wall_speed, 0},
+            WallGrip::contact, ReactionBook{}));
+      }
+    stepper_ = std::make_unique<TotalLagrangian>(decomposition, std::move(setup));
+  }
+
+  TotalLagrangian& stepper() { return *stepper_; }
+  void advance(int steps)
+  {
+    const double wave = stepper_->bodies().front().law->wave_speed();
+    for (int k = 0; k < steps; ++k) stepper_->step(0.1 * size[0] / wave);
+    stepper_->check();
+  }
+
+  struct Found {
+    std::vector<double> places;  ///< x and y of all cells, by id
+    double energy = 0, work = 0;
+    Vec<2> momentum = Vec<2>::Zero(), impulse = Vec<2>::Zero();
+    GlobalIndex pairs = 0;
+    double overlapped = 0;
+  };
+  /// Collective.
+  Found found()
+  {
+    Found found;
+    found.places.assign(std::size_t(2 * cells_), 0.0);
+    std::array<double, 8> sums{};
+    for (const Body<2>& body : stepper_->bodies()) {
+      for (LocalIndex p = 0; p < body.particles.size(); ++p)
+        for (int d = 0; d < 2; ++d)
+          found.places[std::size_t(2 * body.particles.ids()[std::size_t(p)] + d)] =
+              body.particles.motion()(d, p);
+      const int work = body.particles.state().find("plastic_work");
+      for (LocalIndex b = 0; b < body.particles.blocks(); ++b) {
+        const double* state = body.particles.state().block(b);
+        sums[0] += stdx::reduce(body.law->elastic_energy(state));
+        if (work >= 0) sums[0] += stdx::reduce(load(state + work * lane_count));
+      }
+    }
+    const Carried<2> carried = stepper_->carried();
+    sums[0] += carried.kinetic_energy + carried.elastic_energy + carried.contact->energy;
+    sums[1] = carried.momentum[0];
+    sums[2] = carried.momentum[1];
+    for (const auto& condition : stepper_->slots().conditions) {
+      const Reaction<2> reaction = condition->take_reaction();
+      sums[3] += reaction.work;
+      sums[4] += reaction.impulse[0];
+      sums[5] += reaction.impulse[1];
+    }
+    sums[6] = carried.contact->overlapped_area;
+    found.pairs = carried.contact->pairs;
+    sum_over_ranks(comm_, sums);
+    sum_over_ranks(comm_, found.places);
+    sum_over_ranks(comm_, std::span(&found.pairs, 1));
+    found.energy = sums[0];
+    found.momentum = {sums[1], sums[2]};
+    found.work = sums[3];
+    found.impulse = {sums[4], sums[5]};
+    found.overlapped = sums[6];
+    return found;
+  }
+  double mass() const { return double(cells_) * density * size.prod(); }
+
+ private:
+  MPI_Comm comm_;
+  GlobalIndex cells_ = 0;
+  std::unique_ptr<TotalLagrangian> stepper_;
+};
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b)
+{
+  double largest = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::abs(a[k] - b[k]));
+  return largest;
+}
+
+TEST(TotalLagrangian, FliesWithoutEffect)
+{
+  Ring run(MPI_COMM_WORLD, {.velocity = {30, -20}});
+  const Ring::Found before = run.found();
+  run.advance(200);
+  const Ring::Found after = run.found();
+  EXPECT_NEAR(after.energy / before.energy, 1, 1e-12);
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * before.momentum.norm());
+  for (std::size_t k = 0; k < before.places.size(); ++k)
+    ASSERT_NEAR(after.places[k] - before.places[k],
+                run.stepper().time() * (k % 2 == 0 ? 30 : -20), 1e-14);
+}
+
+TEST(TotalLagrangian, TurnsAndSwingsAndKeepsEnergyAndMomentum)
+{
+  Ring run(MPI_COMM_WORLD, {.velocity = {5, 0}, .turning = 8000});
+  const Ring::Found before = run.found();
+  run.advance(4000);  // more than half a turn
+  const Ring::Found after = run.found();
+  EXPECT_NEAR(after.energy / before.energy, 1, 2e-3);
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-11 * before.momentum.norm());
+}
+
+/// Pressed until the lumens are closed: what the walls do is what is stored, dissipated and moving.
+TEST(TotalLagrangian, IsCrushedWithAClosedBalanceOnAnyRanks)
+{
+  const Scene scene{.yield = YieldConstants{30e6, 0}, .pressed = true};
+  Ring together(MPI_COMM_WORLD, scene), alone(MPI_COMM_SELF, scene);
+  // Until paths of buckling part, what ranks do together is what one does alone.
+  together.advance(1000);
+  alone.advance(1000);
+  EXPECT_LT(largest_difference(together.found().places, alone.found().places), 1e-9 * cell);
+  double work = 0;
+  Vec<2> impulse = Vec<2>::Zero();
+  Ring::Found now;
+  for (int k = 0; k < 8; ++k) {
+    together.advance(100);
+    now = together.found();
+    work += now.work;
+    impulse += now.impulse;
+  }
+  EXPECT_GT(now.pairs, 40);
+  EXPECT_LT(now.overlapped, 0.01 * together.mass() / density);
+  // Counted from where `found` was asked first.
+  EXPECT_GT(work, 0);
+  EXPECT_LT((now.momentum - impulse).norm(), 0.02 * std::sqrt(2 * now.energy * together.mass()));
+}
+
+TEST(TotalLagrangian, TakesUpWhatWasSavedToTheLastBit)
+{
+  const Scene scene{.yield = YieldConstants{30e6, 0}, .pressed = true};
+  Ring run(MPI_COMM_WORLD, scene), other(MPI_COMM_WORLD, scene);
+  run.advance(1510);
+  MemoryArchive archive;
+  archive.start_saving();
+  run.stepper().archive(archive);
+  archive.start_loading();
+  other.stepper().archive(archive);
+  EXPECT_TRUE(archive.unread().empty());
+  run.advance(430);
+  other.advance(430);
+  const Ring::Found one = run.found(), two = other.found();
+  EXPECT_EQ(one.places, two.places);
+  EXPECT_EQ(one.energy, two.energy);
+}
+
+TEST(TotalLagrangian, GoesOnAcrossAPeriodicSide)
+{
+  const Scene inside{.first_y = 6, .turning = 500, .periodic = true};
+  Scene across = inside;
+  across.first_y = 20;  // its upper half comes in from below
+  Ring one(MPI_COMM_WORLD, inside), two(MPI_COMM_WORLD, across);
+  one.advance(300);
+  two.advance(300);
+  const Ring::Found a = one.found(), b = two.found();
+  EXPECT_NEAR(b.energy / a.energy, 1, 1e-12);
+  const double period = grid_cells[1] * cell, shift = 14 * size[1];
+  for (std::size_t k = 0; k < a.places.size(); ++k) {
+    double apart = b.places[k] - a.places[k] - (k % 2 == 1 ? shift : 0.0);
+    if (k % 2 == 1) apart -= period * std::round(apart / period);
+    ASSERT_NEAR(apart, 0, 1e-10 * cell) << k;
+  }
+}
+
+TEST(TotalLagrangian, NamesACellThatIsTurnedInsideOut)
+{
+  Ring run(MPI_COMM_WORLD, {.turning = 4e6});
+  try {
+    run.advance(400);
+    FAIL() << "no error";
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("of body 'ring'"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace mpm
