@@ -146,8 +146,6 @@ Carried<2> TotalLagrangian::carried() const
     carried.momentum += mass * Vec<2>(u[0], u[1]);
     carried.added_mass += mass - first_masses_[std::size_t(node)];
   }
-  carried.kinetic_energy -= scaling_.work;
-  carried.momentum -= scaling_.impulse;
   for (std::size_t b = 0; b < cells_.size(); ++b)
     carried.elastic_energy += cells_[b].bending_energy(setup_.bodies[b], *nodes_);
   if (contact_)
@@ -196,7 +194,7 @@ void TotalLagrangian::check()
   if (setup_.mass_scaling > 0) scale_masses();
 }
 
-/// Velocities stay; what the new masses bring along is booked as if it came from outside.
+/// What they bring and take along is booked as if it came from outside.
 void TotalLagrangian::scale_masses()
 {
   constexpr int corners = LocationMesh<2>::corners;
@@ -228,13 +226,17 @@ void TotalLagrangian::scale_masses()
     mass += first_masses_[std::size_t(node)];
     const double more = mass - before[std::size_t(node)];
     if (more == 0) continue;
-    const double* u = fields_->updated_of(node);
+    // Mass that comes is at rest, and mass that goes takes its velocity along: neither heats.
+    double* u = fields_->updated_of(node);
+    const double slower = more > 0 ? before[std::size_t(node)] / mass : 1.0;
     for (int d = 0; d < 2; ++d) {
+      const double was = u[d];
+      u[d] *= slower;
       fields_->momentum_column().values[std::size_t(node) * NodeFields<2>::record_width +
                                         std::size_t(d)] = mass * u[d];
       if (!nodes_->is_owned(node)) continue;
-      scaling_.impulse[d] += more * u[d];
-      scaling_.work += 0.5 * more * u[d] * u[d];
+      scaling_.impulse[d] += mass * u[d] - before[std::size_t(node)] * was;
+      scaling_.work += 0.5 * (mass * u[d] * u[d] - before[std::size_t(node)] * was * was);
     }
   }
 }

@@ -158,7 +158,7 @@ void History<Dim>::observe()
   load_cell_.mass += now.mass;
 }
 
-/// Work and impulse of loads, contacts and each condition.
+/// Work and impulse of the step itself, loads, contacts and each condition.
 template <int Dim>
 void History<Dim>::take_reactions()
 {
@@ -168,9 +168,10 @@ void History<Dim>::take_reactions()
     sums.insert(sums.end(), reaction.impulse.data(), reaction.impulse.data() + Dim);
   };
   Slots<Dim>& slots = formulation_.slots();
+  append(formulation_.take_reaction());
   append(slots.loads.take_reaction());
   for (const auto& contact : slots.contacts) append(contact->take_reaction());
-  const std::size_t others = 1 + slots.contacts.size();
+  const std::size_t others = 2 + slots.contacts.size();
   for (const auto& condition : slots.conditions) append(condition->take_reaction());
   sum_over_ranks(comm(), sums);
   for (std::size_t k = 0; k < others + slots.conditions.size(); ++k) {

@@ -27,7 +27,7 @@ class TotalLagrangian final : public Formulation<2> {
     double contact_stiffness = 4;
     /// Cells with a smaller least stretch are made heavier by the square of this over it, so that
     /// they do not shorten the step. 0: none.
-    double mass_scaling = 0.5;
+    double mass_scaling = 0.3;
   };
 
   TotalLagrangian(Decomposition<2> decomposition, Setup setup);
@@ -42,6 +42,7 @@ class TotalLagrangian final : public Formulation<2> {
   const Decomposition<2>& decomposition() const override { return decomposition_; }
   LocalIndex active_nodes() const override { return nodes_->size(); }
   Carried<2> carried() const override;
+  Reaction<2> take_reaction() override { return scaling_.take(); }
   double stress_moment() const override { return 0.5; }
   Slots<2>& slots() override { return setup_.slots; }
   double largest_step() const override { return setup_.slots.largest_step(); }
@@ -87,8 +88,7 @@ class TotalLagrangian final : public Formulation<2> {
   std::optional<OverlapContact> contact_;
 
   std::vector<double> first_masses_;  ///< kg, of the nodes
-  /// What heavier cells brought along, of this rank's nodes: J, kg m/s.
-  Reaction<2> scaling_;
+  Reaction<2> scaling_;               ///< of masses that come and go, this rank's nodes
 
   double time_ = 0, last_step_ = 0;
   GlobalIndex steps_ = 0;

@@ -77,6 +77,8 @@ class Formulation {
   virtual const Decomposition<Dim>& decomposition() const = 0;
 
   virtual Carried<Dim> carried() const = 0;
+  /// What the step itself gave to the bodies since it was last asked: counts as from outside.
+  virtual Reaction<Dim> take_reaction() { return {}; }
   /// When a step leaves the stresses, counted from the moment of the velocities, in steps.
   virtual double stress_moment() const = 0;
   /// Loads, contact, conditions and transport.
