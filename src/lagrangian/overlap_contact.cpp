@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 namespace mpm {
 
@@ -202,6 +203,12 @@ void OverlapContact::list_pairs(double skin)
   }
   std::sort(pairs_.begin(), pairs_.end());
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+  turned_.resize(pairs_.size());
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const auto& a = locations_[std::size_t(pairs_[k].first)];
+    const auto& b = locations_[std::size_t(pairs_[k].second)];
+    turned_[k] = std::tie(a[1], a[0]) > std::tie(b[1], b[0]);
+  }
 }
 
 /// Candidates without a pair go, and their owners are told which are left; and of which pairs this
@@ -298,8 +305,10 @@ void OverlapContact::find_overlaps()
   for (std::size_t g = 0; g < groups; ++g) {
     alignas(lane_alignment) double a[corner_values * lane_count], b[corner_values * lane_count];
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const Pair& pair = pairs_[near_[std::min(g * lane_count + lane, near_.size() - 1)]];
-      const double *first = corners_of(pair.first), *second = corners_of(pair.second);
+      const std::size_t number = near_[std::min(g * lane_count + lane, near_.size() - 1)];
+      const double *first = corners_of(pairs_[number].first),
+                   *second = corners_of(pairs_[number].second);
+      if (turned_[number]) std::swap(first, second);
       for (std::size_t k = 0; k < corner_values; ++k) {
         const double origin = first[k < 4 ? 0 : 4];
         a[k * lane_count + lane] = first[k] - origin;
@@ -399,6 +408,7 @@ void OverlapContact::add_forces(NodeFields<2>& fields) const
     if (!(*values > 0)) continue;
     const Pair& pair = pairs_[near_[k]];
     const double push = pressure(near_[k]);
+    const int of_first = turned_[near_[k]] ? 9 : 1, of_second = 10 - of_first;
     const auto push_corners = [&](const Cell& cell, const double* derivative) {
       for (std::size_t c = 0; c < 4; ++c) {
         double* force = fields.force_of(cell.nodes[c]);
@@ -406,9 +416,9 @@ void OverlapContact::add_forces(NodeFields<2>& fields) const
         force[1] -= push * derivative[(c + 4) * lane_count];
       }
     };
-    push_corners(cells_[std::size_t(pair.first)], values + lane_count);
+    push_corners(cells_[std::size_t(pair.first)], values + of_first * lane_count);
     if (pair.second < cells())
-      push_corners(cells_[std::size_t(pair.second)], values + 9 * lane_count);
+      push_corners(cells_[std::size_t(pair.second)], values + of_second * lane_count);
   }
 }
 

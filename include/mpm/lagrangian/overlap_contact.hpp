@@ -115,6 +115,9 @@ class OverlapContact {
   std::vector<int> images_;
 
   std::vector<Pair> pairs_;
+  /// Whether the overlap is found as that of the second with the first: in the order of their
+  /// locations, so that both ranks of a pair find the same bits.
+  std::vector<char> turned_;
   std::vector<std::size_t> near_;   ///< those whose boxes meet
   std::vector<double> areas_;       ///< of all pairs, m^2
   /// Of every pair the first cell's S_c P_cd / A0, N/m, a zero, and the second cells' as
