@@ -25,6 +25,31 @@ bool meet(const Box& a, const Box& b, double distance)
          b[1] < a[3] + distance;
 }
 
+/// Which corner is more than straight, or -1.
+int reflex_corner(const double* corners)
+{
+  const double *x = corners, *y = corners + 4;
+  // Twice the areas of the triangles that the corners cut off.
+  const auto cut_off = [&](std::size_t last, std::size_t at, std::size_t next) {
+    return (x[at] - x[last]) * (y[next] - y[at]) - (y[at] - y[last]) * (x[next] - x[at]);
+  };
+  const double least[4] = {cut_off(3, 0, 1), cut_off(0, 1, 2), cut_off(1, 2, 3), cut_off(2, 3, 0)};
+  const auto* narrowest = std::min_element(least, least + 4);
+  return *narrowest < 0 ? int(narrowest - least) : -1;
+}
+
+/// Counter-clockwise: a whole cell, then for each corner that may be a reflex one the two triangles
+/// through it.
+constexpr std::array<std::array<std::size_t, 4>, 9> corners_of_piece{{{0, 1, 2, 3},
+                                                                      {0, 1, 2, 2},
+                                                                      {0, 2, 3, 3},
+                                                                      {1, 2, 3, 3},
+                                                                      {1, 3, 0, 0},
+                                                                      {2, 3, 0, 0},
+                                                                      {2, 0, 1, 1},
+                                                                      {3, 0, 1, 1},
+                                                                      {3, 1, 2, 2}}};
+
 Box box_of(const double* corners)
 {
   const auto [left, right] = std::minmax({corners[0], corners[1], corners[2], corners[3]});
@@ -294,25 +319,43 @@ void OverlapContact::answer(std::vector<Ghosts::Peer>& peers,
   }
 }
 
-void OverlapContact::find_overlaps()
+/// Pairs whose boxes meet. Cells with a reflex corner come as two triangles.
+void OverlapContact::list_near()
 {
   near_.clear();
-  for (std::size_t k = 0; k < pairs_.size(); ++k)
-    if (meet(boxes_[std::size_t(pairs_[k].first)], boxes_[std::size_t(pairs_[k].second)], 0))
-      near_.push_back(k);
+  const auto pieces_of = [&](LocalIndex cell) {
+    const int reflex = reflex_corner(corners_of(cell));
+    return reflex < 0 ? std::pair(0, 1) : std::pair(1 + 2 * reflex, 3 + 2 * reflex);
+  };
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    auto [a, b] = pairs_[k];
+    if (!meet(boxes_[std::size_t(a)], boxes_[std::size_t(b)], 0)) continue;
+    if (turned_[k]) std::swap(a, b);
+    const auto [first, last] = pieces_of(a);
+    const auto [other_first, other_last] = pieces_of(b);
+    for (int one = first; one < last; ++one)
+      for (int other = other_first; other < other_last; ++other) near_.push_back({k, one, other});
+  }
+}
+
+void OverlapContact::find_overlaps()
+{
+  list_near();
   const std::size_t groups = (near_.size() + lane_count - 1) / lane_count;
   overlaps_.resize(groups * values_per_group);
   for (std::size_t g = 0; g < groups; ++g) {
     alignas(lane_alignment) double a[corner_values * lane_count], b[corner_values * lane_count];
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const std::size_t number = near_[std::min(g * lane_count + lane, near_.size() - 1)];
-      const double *first = corners_of(pairs_[number].first),
-                   *second = corners_of(pairs_[number].second);
-      if (turned_[number]) std::swap(first, second);
+      const Near& near = near_[std::min(g * lane_count + lane, near_.size() - 1)];
+      const double *first = corners_of(pairs_[near.pair].first),
+                   *second = corners_of(pairs_[near.pair].second);
+      if (turned_[near.pair]) std::swap(first, second);
+      const auto& one = corners_of_piece[std::size_t(near.first_piece)];
+      const auto& other = corners_of_piece[std::size_t(near.second_piece)];
       for (std::size_t k = 0; k < corner_values; ++k) {
-        const double origin = first[k < 4 ? 0 : 4];
-        a[k * lane_count + lane] = first[k] - origin;
-        b[k * lane_count + lane] = second[k] - origin;
+        const std::size_t axis = k < 4 ? 0 : 4;
+        a[k * lane_count + lane] = first[axis + one[k % 4]] - first[axis];
+        b[k * lane_count + lane] = second[axis + other[k % 4]] - first[axis];
       }
     }
     Quads one, other;
@@ -349,10 +392,10 @@ void OverlapContact::measure(const MeshNodes<2>& nodes)
   std::vector<LocalIndex>& first = first_touch_;
   first.assign(cells_.size() + 1, 0);
   for (std::size_t k = 0; k < near_.size(); ++k) {
-    const double area = *overlap_of_pair(k);
-    if (!(area > 0)) continue;
-    const Pair& pair = pairs_[near_[k]];
-    areas_[near_[k]] = area;
+    const auto [number, one, other] = near_[k];
+    if (*overlap_of_pair(k) > 0) areas_[number] += *overlap_of_pair(k);
+    if (areas_[number] == 0 || (k + 1 < near_.size() && near_[k + 1].pair == number)) continue;
+    const Pair& pair = pairs_[number];
     ++first[std::size_t(pair.first)];
     if (pair.second < cells()) ++first[std::size_t(pair.second)];
     touching_ += pair.second < cells() ? 2 : 1;
@@ -360,8 +403,9 @@ void OverlapContact::measure(const MeshNodes<2>& nodes)
   std::exclusive_scan(first.begin(), first.end(), first.begin(), 0);
   touches_.resize(std::size_t(first.back()));
   std::vector<LocalIndex> next(first.begin(), first.end() - 1);
-  for (const std::size_t k : near_) {
-    if (areas_[k] == 0) continue;
+  for (std::size_t entry = 0; entry < near_.size(); ++entry) {
+    const std::size_t k = near_[entry].pair;
+    if (areas_[k] == 0 || (entry + 1 < near_.size() && near_[entry + 1].pair == k)) continue;
     const Pair& pair = pairs_[k];
     touches_[std::size_t(next[std::size_t(pair.first)]++)] = {pair.second, LocalIndex(k),
                                                               LocalIndex(k)};
@@ -406,19 +450,20 @@ void OverlapContact::add_forces(NodeFields<2>& fields) const
   for (std::size_t k = 0; k < near_.size(); ++k) {
     const double* values = overlap_of_pair(k);
     if (!(*values > 0)) continue;
-    const Pair& pair = pairs_[near_[k]];
-    const double push = pressure(near_[k]);
-    const int of_first = turned_[near_[k]] ? 9 : 1, of_second = 10 - of_first;
-    const auto push_corners = [&](const Cell& cell, const double* derivative) {
+    const auto [number, one, other] = near_[k];
+    const auto& [first, second] = pairs_[number];
+    const double push = pressure(number);
+    const auto push_corners = [&](LocalIndex cell, int piece, const double* derivative) {
+      if (cell >= cells()) return;
       for (std::size_t c = 0; c < 4; ++c) {
-        double* force = fields.force_of(cell.nodes[c]);
+        const std::size_t corner = corners_of_piece[std::size_t(piece)][c];
+        double* force = fields.force_of(cells_[std::size_t(cell)].nodes[corner]);
         force[0] -= push * derivative[c * lane_count];
         force[1] -= push * derivative[(c + 4) * lane_count];
       }
     };
-    push_corners(cells_[std::size_t(pair.first)], values + of_first * lane_count);
-    if (pair.second < cells())
-      push_corners(cells_[std::size_t(pair.second)], values + of_second * lane_count);
+    push_corners(turned_[number] ? second : first, one, values + lane_count);
+    push_corners(turned_[number] ? first : second, other, values + 9 * lane_count);
   }
 }
 
@@ -441,7 +486,7 @@ double OverlapContact::overlapped_area() const
 std::size_t OverlapContact::bytes() const
 {
   return cells_.size() * sizeof(Cell) + pairs_.capacity() * sizeof(Pair) +
-         near_.capacity() * sizeof(std::size_t) +
+         near_.capacity() * sizeof(Near) +
          (corners_.capacity() + 4 * boxes_.capacity() + overlaps_.capacity()) * sizeof(double);
 }
 

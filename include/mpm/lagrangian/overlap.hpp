@@ -17,6 +17,7 @@ namespace overlap_detail {
 struct Sides : Quads {
   Lanes dx[4], dy[4];
   Lanes from_origin[4];  ///< of each side, times its length, m^2
+  Lanes squared[4];      ///< lengths, m^2
 
   [[gnu::always_inline]] explicit Sides(const Quads& quads) : Quads(quads)
   {
@@ -24,6 +25,7 @@ struct Sides : Quads {
       dx[k] = x[(k + 1) % 4] - x[k];
       dy[k] = y[(k + 1) % 4] - y[k];
       from_origin[k] = dx[k] * y[k] - dy[k] * x[k];
+      squared[k] = dx[k] * dx[k] + dy[k] * dy[k];
     }
   }
   /// Of a point from side k, times its length, m^2; positive within.
@@ -33,27 +35,23 @@ struct Sides : Quads {
   }
 };
 
-/// Distances (m^2) of this size or less are none: their inverses are no numbers.
-inline constexpr double nothing = 1e-290;
-
-inline LaneMask is_out(const Lanes& distance)
-{
-  return distance < -nothing;
-}
+/// Of the squares of two sides' lengths: ends so near to the other's line are on it. Rounding is a
+/// thousandth of that.
+inline constexpr double on_line = 1e-13;
 
 /// The part [first, last] of an edge, from 0 to 1, that lies in a quadrilateral.
 struct Part {
   Lanes first = 0.0, last = 1.0;
 
   /// By one side, from which start and end of the edge are so far; `crossing` is where it crosses
-  /// that. `out`: where it runs along the side and does not count as within.
+  /// that. `along`: where it runs along the side, of these `out`: where it does not count as within.
   [[gnu::always_inline]] void cut(const Lanes& start, const Lanes& end, const Lanes& crossing,
-                                  const LaneMask& out)
+                                  const LaneMask& along, const LaneMask& out)
   {
-    const LaneMask starts_out = is_out(start), ends_out = is_out(end);
+    const LaneMask starts_out = start < 0.0 && !along, ends_out = end < 0.0 && !along;
     stdx::where(starts_out && !ends_out, first) = stdx::max(first, crossing);
     stdx::where(ends_out && !starts_out, last) = stdx::min(last, crossing);
-    stdx::where((starts_out && ends_out) || out, last) = 0.0;
+    stdx::where((starts_out && ends_out) || (along && out), last) = 0.0;
   }
 };
 
@@ -102,13 +100,14 @@ struct Overlap {
       const Lanes &b0 = b_from[j][k], &b1 = b_from[(j + 1) % 4][k];
       // Both crossings have the same denominator, twice the area between the directions. It is
       // exact where the ends lie on either side: of nearly parallel sides it may be lost elsewhere.
-      const LaneMask b_crosses = is_out(b0) != is_out(b1);
+      const LaneMask b_crosses = (b0 < 0.0) != (b1 < 0.0);
       const Lanes inverse = 1.0 / select(b_crosses, b1 - b0, a0 - a1);
-      const LaneMask same_line = stdx::abs(a0) <= nothing && stdx::abs(a1) <= nothing;
+      const Lanes bound = on_line * (a.squared[k] + b.squared[j]);
+      const LaneMask same_line = stdx::max(stdx::abs(a0), stdx::abs(a1)) <= bound ||
+                                 stdx::max(stdx::abs(b0), stdx::abs(b1)) <= bound;
       const Lanes along = a.dx[k] * b.dx[j] + a.dy[k] * b.dy[j];
-      parts_a[k].cut(a0, a1, a0 * inverse, same_line && along < 0.0);
-      parts_b[j].cut(b0, b1, -b0 * inverse,
-                     stdx::abs(b0) <= nothing && stdx::abs(b1) <= nothing && along != 0.0);
+      parts_a[k].cut(a0, a1, a0 * inverse, same_line, along < 0.0);
+      parts_b[j].cut(b0, b1, -b0 * inverse, same_line, along != 0.0);
     }
   for (int k = 0; k < 4; ++k) {
     add_edge(a, k, parts_a[k], found.area, found.a_x, found.a_y);

@@ -65,10 +65,16 @@ class OverlapContact {
     LocalIndex first, second;
     auto operator<=>(const Pair&) const = default;
   };
+  /// Parts of a pair's cells: 0 is all of one, the others are triangles. Those of the cell that
+  /// comes first in the order of locations are first.
+  struct Near {
+    std::size_t pair;
+    int first_piece, second_piece;
+  };
   static constexpr int corner_values = 8;  ///< x and y of the corners
   /// Of lane_count pairs: areas, and their derivatives by 16 coordinates.
   static constexpr int values_per_group = 17 * lane_count;
-  const double* overlap_of_pair(std::size_t k) const
+  const double* overlap_of_pair(std::size_t k) const  // of near_[k]
   {
     return &overlaps_[k / lane_count * values_per_group + k % lane_count];
   }
@@ -86,6 +92,7 @@ class OverlapContact {
   void keep_needed(std::vector<Ghosts::Peer> peers);
   void answer(std::vector<Ghosts::Peer>& peers, const std::vector<std::vector<double>>& asked,
               std::vector<Ghosts::Peer>& sides) const;
+  void list_near();
   void find_overlaps();
 
   /// One cell of this rank in a pair that touches.
@@ -118,7 +125,7 @@ class OverlapContact {
   /// Whether the overlap is found as that of the second with the first: in the order of their
   /// locations, so that both ranks of a pair find the same bits.
   std::vector<char> turned_;
-  std::vector<std::size_t> near_;   ///< those whose boxes meet
+  std::vector<Near> near_;          ///< those whose boxes meet
   std::vector<double> areas_;       ///< of all pairs, m^2
   /// Of every pair the first cell's S_c P_cd / A0, N/m, a zero, and the second cells' as
   /// `second_side_` has them: other ranks' last.
