@@ -177,5 +177,31 @@ TEST(Overlap, TakesATriangleThatNamesACornerTwice)
   }
 }
 
+/// Ends that rounding puts to either side of the other's line decide nothing: the boundary stays
+/// closed, and the derivatives sum to zero.
+TEST(Overlap, HasAClosedBoundaryWhereSidesLieOnOneLine)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> noise(-1e-16, 1e-16), shift(0.1, 0.9);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double s = shift(random);
+    // The upper side of the first is on the line of the second's upper or lower one.
+    const double lower = trial % 2 == 0 ? 0.0 : 1.0;
+    Cell a{{{0, 0}, {1, 0}, {1.1, 1}, {0.1, 1}}};
+    Cell b{{{s, lower}, {s + 1, lower}, {s + 1, lower + 1}, {s, lower + 1}}};
+    for (Cell* cell : {&a, &b})
+      for (Point& corner : *cell) corner.y += noise(random);
+    const Overlap found = overlap_of(in_all_lanes(a), in_all_lanes(b));
+    double x = 0, y = 0;
+    for (int k = 0; k < 4; ++k) {
+      x += found.a_x[k][0] + found.b_x[k][0];
+      y += found.a_y[k][0] + found.b_y[k][0];
+    }
+    ASSERT_NEAR(x, 0, 1e-13) << "trial " << trial;
+    ASSERT_NEAR(y, 0, 1e-13) << "trial " << trial;
+    ASSERT_NEAR(found.area[0], clipped_area(a, b), 1e-12) << "trial " << trial;
+  }
+}
+
 }  // namespace
 }  // namespace mpm
