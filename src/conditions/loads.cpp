@@ -77,7 +77,8 @@ void Loads<Dim>::book(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& field
 }
 
 template <int Dim>
-void Loads<Dim>::book_residual(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields, double dt)
+void Loads<Dim>::book_residual(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields,
+                               double dt)
 {
   for_each_impulse(nodes, runs, fields, dt, [&](int d, double impulse, const double* u) {
     reaction_.work += impulse * u[Dim + d];

@@ -18,7 +18,8 @@ MeshNodes<Dim>::MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> 
   for (int d = 0; d < Dim; ++d) {
     auto& places = places_[std::size_t(d)];
     places.resize(owned_.size());
-    for (LocalIndex node = 0; node < this->size(); ++node) places[std::size_t(node)] = rest(node, d);
+    for (LocalIndex node = 0; node < this->size(); ++node)
+      places[std::size_t(node)] = rest(node, d);
   }
 }
 
@@ -62,7 +63,8 @@ double MeshNodes<Dim>::move(const NodeFields<Dim>& fields, double dt)
 template <int Dim>
 void MeshNodes<Dim>::archive(Archive& archive)
 {
-  for (int d = 0; d < Dim; ++d) archive.values("along_" + std::to_string(d), places_[std::size_t(d)]);
+  for (int d = 0; d < Dim; ++d)
+    archive.values("along_" + std::to_string(d), places_[std::size_t(d)]);
   archive.value("way", way_);
   if (archive.is_loading()) listing_ = Nodes<Dim>::new_listing();
 }

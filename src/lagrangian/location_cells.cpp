@@ -41,10 +41,8 @@ LocationCells::LocationCells(const Body<2>& body, std::span<const CellNodes> nod
 
 std::vector<Column> LocationCells::columns(const Law<2>& law)
 {
-  std::vector<Column> list{{"position", 2, "m"},
-                           {"velocity", 2, "m/s"},
-                           {"mass", 1, "kg"},
-                           {"deformation", 4, "1"}};
+  std::vector<Column> list{
+      {"position", 2, "m"}, {"velocity", 2, "m/s"}, {"mass", 1, "kg"}, {"deformation", 4, "1"}};
   for (const Column& state : law.state_columns())
     if (state.name == "plastic_strain") list.push_back({"plastic_bending", 2, "1/m"});
   return list;
@@ -57,7 +55,8 @@ void LocationCells::initialise(ColumnGroup& motion, LocalIndex cell)
   motion(deformation, cell) = motion(deformation + 3, cell) = 1;
 }
 
-[[gnu::always_inline]] inline CellCorners LocationCells::corners(const MeshNodes<2>& nodes, LocalIndex block) const
+[[gnu::always_inline]] inline CellCorners LocationCells::corners(const MeshNodes<2>& nodes,
+                                                                 LocalIndex block) const
 {
   alignas(lane_alignment) double x[corners_of_cell * lane_count], y[corners_of_cell * lane_count];
   const LocalIndex* node = &corner_nodes_[std::size_t(block) * corners_of_cell * lane_count];
@@ -171,8 +170,7 @@ std::optional<LocationCells::Inverted> LocationCells::update(Body<2>& body,
     body.law->update_bent(cells.state().block(first), count, chunk.gradient, dt, chunk.stress,
                           chunk.bending);
     for (int k = 0; k < count; ++k)
-      push(cells, first + k, nodes, chunk, k,
-           forces + std::size_t(first + k) * block_values);
+      push(cells, first + k, nodes, chunk, k, forces + std::size_t(first + k) * block_values);
   }
   return inverted;
 }

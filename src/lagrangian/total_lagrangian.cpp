@@ -24,8 +24,7 @@ TotalLagrangian::TotalLagrangian(Decomposition<2> decomposition, Setup setup)
   make_mesh();
   add_masses();
   add_loads_on_particles();
-  if (setup_.slots.loads.act_on_particles())
-    halo_->sum(std::array{fields_->load_force_column()});
+  if (setup_.slots.loads.act_on_particles()) halo_->sum(std::array{fields_->load_force_column()});
   if (contact_) {
     contact_->find_pairs(*nodes_, 2 * least_way * setup_.location_size.minCoeff());
     contact_->measure(*nodes_);
@@ -116,8 +115,8 @@ void TotalLagrangian::add_loads_on_particles()
       Lanes force[2] = {0.0, 0.0};
       loads.add_to_particles(bodies[b], block, time_, force);
       const LocalIndex* node = &cells_[b].corner_nodes()[std::size_t(block) * corners * lane_count];
-      const int count = std::min<LocalIndex>(lane_count,
-                                             bodies[b].particles.size() - block * lane_count);
+      const int count =
+          std::min<LocalIndex>(lane_count, bodies[b].particles.size() - block * lane_count);
       for (int lane = 0; lane < count; ++lane)
         for (int c = 0; c < corners; ++c)
           for (int d = 0; d < 2; ++d)
@@ -210,11 +209,11 @@ void TotalLagrangian::scale_masses()
         continue;
       // A cell at the point of being turned inside out becomes no heavier than this.
       constexpr double least_of_all = 1e-4;
-      const Lanes added = load(particles.motion().block(block) + mass * lane_count) *
-                          (stdx::max(bound / stdx::max(least, Lanes(least_of_all)), Lanes(1.0)) - 1.0);
+      const Lanes added =
+          load(particles.motion().block(block) + mass * lane_count) *
+          (stdx::max(bound / stdx::max(least, Lanes(least_of_all)), Lanes(1.0)) - 1.0);
       const LocalIndex* node = &cells_[b].corner_nodes()[std::size_t(block) * corners * lane_count];
-      const int count =
-          std::min<LocalIndex>(lane_count, particles.size() - block * lane_count);
+      const int count = std::min<LocalIndex>(lane_count, particles.size() - block * lane_count);
       for (int lane = 0; lane < count; ++lane)
         for (int c = 0; c < corners; ++c)
           fields_->mass_of(node[c * lane_count + lane]) += added[lane] / corners;
@@ -232,8 +231,8 @@ void TotalLagrangian::scale_masses()
     for (int d = 0; d < 2; ++d) {
       const double was = u[d];
       u[d] *= slower;
-      fields_->momentum_column().values[std::size_t(node) * NodeFields<2>::record_width +
-                                        std::size_t(d)] = mass * u[d];
+      fields_->momentum_column()
+          .values[std::size_t(node) * NodeFields<2>::record_width + std::size_t(d)] = mass * u[d];
       if (!nodes_->is_owned(node)) continue;
       scaling_.impulse[d] += mass * u[d] - before[std::size_t(node)] * was;
       scaling_.work += 0.5 * (mass * u[d] * u[d] - before[std::size_t(node)] * was * was);
@@ -256,8 +255,7 @@ GlobalIndex TotalLagrangian::repartition(const Ownership<2>&)
   throw NumericalError("cells of a total Lagrangian step stay on their rank");
 }
 
-void TotalLagrangian::visit_work(
-    const std::function<void(const IndexVec<2>&, double)>& visit) const
+void TotalLagrangian::visit_work(const std::function<void(const IndexVec<2>&, double)>& visit) const
 {
   const GridGeometry<2>& geometry = decomposition_.geometry();
   for (LocalIndex node = 0; node < nodes_->size(); ++node) {
@@ -272,8 +270,7 @@ Counters TotalLagrangian::counters() const
   Counters counters{0, halo_->traffic().messages, halo_->traffic().bytes,
                     halo_->traffic().waiting_seconds};
   if (contact_)
-    counters += {0, contact_->messages(), contact_->bytes_sent(),
-                 contact_->waiting_seconds()};
+    counters += {0, contact_->messages(), contact_->bytes_sent(), contact_->waiting_seconds()};
   return counters;
 }
 

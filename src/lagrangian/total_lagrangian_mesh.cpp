@@ -69,7 +69,8 @@ void TotalLagrangian::make_mesh()
       for (int j = -2; j <= 2; ++j)
         for (int i = -2; i <= 2; ++i)
           at_border = at_border || owner_of(location + IndexVec<2>(i, j)) != me;
-      if (at_border) at_borders.insert(at_borders.end(), {double(location[0]), double(location[1])});
+      if (at_border)
+        at_borders.insert(at_borders.end(), {double(location[0]), double(location[1])});
     }
   const MPI_Comm comm = decomposition_.comm();
   const std::vector<double> all = joined_over_ranks(comm, at_borders);
@@ -85,9 +86,9 @@ void TotalLagrangian::make_mesh()
   LocationMesh<2> mesh = make_location_mesh<2>(cells, me, rank_of, period);
   nodes_.emplace(std::move(mesh.nodes), std::move(mesh.owned), setup_.location_size, period);
   run_ = nodes_->run();
-  fields_.emplace(nodes_->size(),
-                  NodeFields<2>::Needs{.load_force = !setup_.slots.loads.empty(), .gradient = false},
-                  0.0);
+  fields_.emplace(
+      nodes_->size(),
+      NodeFields<2>::Needs{.load_force = !setup_.slots.loads.empty(), .gradient = false}, 0.0);
   halo_.emplace(comm, std::move(mesh.shared));
   std::size_t first = 0;
   for (const Body<2>& body : setup_.bodies) {
@@ -134,10 +135,7 @@ void TotalLagrangian::make_contact(const std::vector<LocationCells::CellNodes>& 
                        open_corners(location + IndexVec<2>(i, j)) == 0;
       if (surrounded) continue;
       const auto& n = cells[number];
-      near.push_back({{n[0], n[1], n[3], n[2]},
-                      location,
-                      stiffness,
-                      open_corners(location)});
+      near.push_back({{n[0], n[1], n[3], n[2]}, location, stiffness, open_corners(location)});
     }
   }
   contact_.emplace(decomposition_.comm(), std::move(near), setup_.location_size, period);
@@ -185,8 +183,9 @@ void TotalLagrangian::add_masses()
         const double share = motion(mass, p) / corners;
         fields_->mass_of(node) += share;
         for (int d = 0; d < 2; ++d)
-          fields_->momentum_column().values[std::size_t(node) * NodeFields<2>::record_width +
-                                            std::size_t(d)] += share * motion(velocity + d, p);
+          fields_->momentum_column()
+              .values[std::size_t(node) * NodeFields<2>::record_width + std::size_t(d)] +=
+              share * motion(velocity + d, p);
       }
   }
   halo_->sum(std::array{fields_->mass_column(), fields_->momentum_column()});
@@ -194,7 +193,8 @@ void TotalLagrangian::add_masses()
   for (LocalIndex node = 0; node < nodes_->size(); ++node)
     for (int d = 0; d < 2; ++d)
       fields_->updated_of(node)[d] =
-          fields_->momentum_force[std::size_t(node) * NodeFields<2>::record_width + std::size_t(d)] /
+          fields_
+              ->momentum_force[std::size_t(node) * NodeFields<2>::record_width + std::size_t(d)] /
           fields_->mass_of(node);
 }
 

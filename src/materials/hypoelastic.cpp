@@ -95,10 +95,7 @@ class Hypoelastic final : public Law<2> {
     }
   }
 
-  Vec<2> bending_modulus() const override
-  {
-    return {1 / compliance_(0, 0), 1 / compliance_(1, 1)};
-  }
+  Vec<2> bending_modulus() const override { return {1 / compliance_(0, 0), 1 / compliance_(1, 1)}; }
   void update_bent(double* state, int blocks, const double* gradient, double dt,
                    double* force_stress, double* bending) const override
   {
@@ -250,9 +247,9 @@ class Hypoelastic final : public Law<2> {
   PlaneStressReturn return_in_plane_stress(double* s, Symmetric& t, BentFlow& bent) const
   {
     const Lanes sum = t.xx + t.yy, difference = t.xx - t.yy;
-    const PlaneStressReturn flow = return_to_yield_plane_stress(
-        sum, difference * difference + 4.0 * t.xy * t.xy, at(s, plastic_strain), elastic_, yield_,
-        bent.squared);
+    const PlaneStressReturn flow =
+        return_to_yield_plane_stress(sum, difference * difference + 4.0 * t.xy * t.xy,
+                                     at(s, plastic_strain), elastic_, yield_, bent.squared);
     if (!flow.any) return flow;
     bent.scale = flow.bending_scale;
     const Lanes new_sum = flow.sum_scale * sum, new_difference = flow.difference_scale * difference;

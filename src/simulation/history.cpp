@@ -108,8 +108,8 @@ std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind
     values.insert(values.end(), {line.strain, line.stress(), line.piston_stress, line.edge_stress});
     if (kind.load_cell) values.push_back(line.load_cell_stress);
   }
-  values.insert(values.end(), {line.kinetic_energy, line.elastic_energy, line.plastic_work,
-                               line.external_work});
+  values.insert(values.end(),
+                {line.kinetic_energy, line.elastic_energy, line.plastic_work, line.external_work});
   if (kind.contact)
     values.insert(values.end(),
                   {line.contact_energy, line.overlapped_area, double(line.contact_pairs)});

@@ -172,10 +172,8 @@ Layout<Dim> make_layout(const scene::Scene& scene, const micrograph::Specimen<Di
   layout.largest_speed = std::max(loading ? loading->speed : 0, specimen.largest_initial_speed());
   measure_materials(scene, specimen, layout);
   layout.cfl = default_cfl(scene.numerics);
-  layout.crossed_in_step =
-      is_total_lagrangian(scene.numerics)
-          ? layout.location_size.minCoeff()
-          : layout.geometry.smallest_spacing();
+  layout.crossed_in_step = is_total_lagrangian(scene.numerics) ? layout.location_size.minCoeff()
+                                                               : layout.geometry.smallest_spacing();
   if (loading) {
     const double length = specimen.size()[axis_of(loading->piston)];
     const double crossing = length / layout.wave_speed;

@@ -220,8 +220,7 @@ void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, Model<D
 /// Collective. Throws InputError on every rank for a load that finds no particle.
 template <int Dim>
 void mark_loaded(const scene::Scene& scene, const Specimen<Dim>& specimen,
-                 const Layout<Dim>& layout, MPI_Comm comm,
-                 Model<Dim>& model)
+                 const Layout<Dim>& layout, MPI_Comm comm, Model<Dim>& model)
 {
   const std::vector<SurfaceMark<Dim>> marks = model.slots.loads.marks();
   const std::vector<GlobalIndex> counts =
@@ -272,7 +271,8 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
     const scene::Material& material = scene.materials[k];
     if (specimen.particles_of_material()[k] == 0) continue;
     if (material.law->deformable()) {
-      model.bodies.push_back(empty_body<Dim>(material, int(k), scene, layout.per_cell, model.slots.loads));
+      model.bodies.push_back(
+          empty_body<Dim>(material, int(k), scene, layout.per_cell, model.slots.loads));
       fill_body(model.bodies.back(), scene, lattice, layout, decomposition);
       continue;
     }
@@ -282,8 +282,8 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
   }
   if (layout.load_cell) {
     const scene::Material material = load_cell_material(scene, layout.load_cell->density_ratio);
-    model.bodies.push_back(
-        empty_body<Dim>(material, int(scene.materials.size()), scene, layout.per_cell, model.slots.loads));
+    model.bodies.push_back(empty_body<Dim>(material, int(scene.materials.size()), scene,
+                                           layout.per_cell, model.slots.loads));
     BodyFiller<Dim> filler(model.bodies.back(), layout, decomposition);
     const IndexBox<Dim>& box = layout.load_cell->locations;
     const auto visit_home = [&](const auto& visit) {

@@ -27,8 +27,7 @@ Plan::Particles particles_of(const scene::Material& material, double count,
                              const scene::Scene& scene, int particles_per_cell)
 {
   const auto law = law_of<Dim>(material, scene);
-  const ParticleStore store =
-      empty_store(scene, particles_per_cell, *law, loads_of<Dim>(scene));
+  const ParticleStore store = empty_store(scene, particles_per_cell, *law, loads_of<Dim>(scene));
   Plan::Particles particles{
       material.name, count, law->wave_speed(), material.density(), {{"id", sizeof(GlobalIndex)}}};
   for (const ColumnGroup* group : {&store.motion(), &store.state()})
@@ -38,8 +37,7 @@ Plan::Particles particles_of(const scene::Material& material, double count,
 }
 
 template <int Dim>
-std::vector<Plan::Particles> bodies_of(const Preparation<Dim>& preparation,
-                                       int particles_per_cell)
+std::vector<Plan::Particles> bodies_of(const Preparation<Dim>& preparation, int particles_per_cell)
 {
   const scene::Scene& scene = preparation.scene;
   std::vector<Plan::Particles> bodies;
@@ -50,8 +48,7 @@ std::vector<Plan::Particles> bodies_of(const Preparation<Dim>& preparation,
   }
   if (const auto& cell = preparation.layout.load_cell)
     bodies.push_back(particles_of<Dim>(load_cell_material(scene, cell->density_ratio),
-                                  double(cell->locations.size()), scene,
-                                  particles_per_cell));
+                                       double(cell->locations.size()), scene, particles_per_cell));
   return bodies;
 }
 

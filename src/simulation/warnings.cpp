@@ -207,10 +207,10 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
     look_at_reach(scene, specimen, layout, share, warnings);
   }
   if (const auto limit = stable_cfl_of(scene.numerics); limit && layout.cfl > *limit)
-    warnings.push_back(fmt::format(
-        "numerics.cfl is {:.3g}, beyond {:.3g}, the limit of {}: noise will grow. "
-        "Leave it out: the default keeps a margin.",
-        layout.cfl, *limit, limited_by(scene.numerics)));
+    warnings.push_back(
+        fmt::format("numerics.cfl is {:.3g}, beyond {:.3g}, the limit of {}: noise will grow. "
+                    "Leave it out: the default keeps a margin.",
+                    layout.cfl, *limit, limited_by(scene.numerics)));
   if (const double steps = expected_steps(scene, layout); steps > many_steps)
     warnings.push_back(
         fmt::format("the run takes {:.2g} steps or more, over which rounding adds up. Raise the "

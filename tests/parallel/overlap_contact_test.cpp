@@ -56,8 +56,10 @@ Found contact_of(MPI_Comm comm, const Scene& scene)
   for (int c = me; c < cells; c += ranks) {
     const LocalIndex first = LocalIndex(nodes.size());
     for (int k = 0; k < 4; ++k) nodes.push_back({0, 0});
-    own.push_back(
-        {{first, first + 1, first + 2, first + 3}, IndexVec<2>(2 * (c % 8), 2 * (c / 8)), stiffness, 15});
+    own.push_back({{first, first + 1, first + 2, first + 3},
+                   IndexVec<2>(2 * (c % 8), 2 * (c / 8)),
+                   stiffness,
+                   15});
     numbers.push_back(c);
   }
   MeshNodes<2> mesh(nodes, std::vector<char>(nodes.size(), 1), size, IndexVec<2>::Zero());

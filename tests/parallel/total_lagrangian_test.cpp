@@ -78,10 +78,10 @@ class Ring {
         const LocalIndex p = body.particles.add(number);
         ColumnGroup& motion = body.particles.motion();
         const Vec<2> from_middle((i + 0.5) * size[0] - middle[0], (j + 0.5) * size[1] - middle[1]);
-        const std::array<double, 5> values{
-            (at[0] + 0.5) * size[0], (at[1] + 0.5) * size[1],
-            scene.velocity[0] - scene.turning * from_middle[1],
-            scene.velocity[1] + scene.turning * from_middle[0], density * size.prod()};
+        const std::array<double, 5> values{(at[0] + 0.5) * size[0], (at[1] + 0.5) * size[1],
+                                           scene.velocity[0] - scene.turning * from_middle[1],
+                                           scene.velocity[1] + scene.turning * from_middle[0],
+                                           density * size.prod()};
         for (int c = 0; c < 5; ++c) motion(c, p) = values[std::size_t(c)];
         LocationCells::initialise(motion, p);
         body.particles.state()(0, p) = size.prod();
@@ -182,8 +182,8 @@ TEST(TotalLagrangian, FliesWithoutEffect)
   EXPECT_NEAR(after.energy / before.energy, 1, 1e-12);
   EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * before.momentum.norm());
   for (std::size_t k = 0; k < before.places.size(); ++k)
-    ASSERT_NEAR(after.places[k] - before.places[k],
-                run.stepper().time() * (k % 2 == 0 ? 30 : -20), 1e-14);
+    ASSERT_NEAR(after.places[k] - before.places[k], run.stepper().time() * (k % 2 == 0 ? 30 : -20),
+                1e-14);
 }
 
 TEST(TotalLagrangian, TurnsAndSwingsAndKeepsEnergyAndMomentum)

@@ -55,8 +55,8 @@ struct CellDeformation {
   /// J (1 + b_1 Y + b_2 X).
   Lanes narrowest_corner(const CellFrame& frame) const
   {
-    return jacobian() * (1.0 - stdx::abs(bending[0]) * frame.half_y -
-                         stdx::abs(bending[1]) * frame.half_x);
+    return jacobian() *
+           (1.0 - stdx::abs(bending[0]) * frame.half_y - stdx::abs(bending[1]) * frame.half_x);
   }
 };
 
@@ -64,9 +64,9 @@ struct CellDeformation {
 ///   k = F^-T m ;  S = V0 tau F^-T - k (x) b ;  f_i = - S grad0 N_i - k eps_i / (hx hy)
 /// with eps = +, -, -, + the corners' signs in the mode X Y. The gradient of an energy W(F) + W(b).
 [[gnu::always_inline]] inline CellCorners corner_forces(const CellDeformation& deformation,
-                                                    const Lanes (&force_stress)[3],
-                                                    const Lanes (&moment)[2],
-                                                    const CellFrame& frame)
+                                                        const Lanes (&force_stress)[3],
+                                                        const Lanes (&moment)[2],
+                                                        const CellFrame& frame)
 {
   const Lanes(&f)[4] = deformation.f;
   const Lanes inverse = 1.0 / deformation.jacobian();
@@ -119,7 +119,8 @@ struct CornerEdges {
 /// sum over the corners of stiffness (least_corner - a)^2 / 2, a = span of the corner's edges over
 /// that at rest: 0 for every affine deformation with J > least_corner. One-point cells without it
 /// tangle where they are pressed from all sides. `stiffness`, J.
-[[gnu::always_inline]] inline Lanes corner_energy(const CellCorners& at, const Lanes& stiffness, const CellFrame& frame)
+[[gnu::always_inline]] inline Lanes corner_energy(const CellCorners& at, const Lanes& stiffness,
+                                                  const CellFrame& frame)
 {
   Lanes energy = 0.0;
   for (int k = 0; k < 4; ++k) {

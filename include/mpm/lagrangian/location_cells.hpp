@@ -62,9 +62,9 @@ class LocationCells {
 
   CellFrame frame_;
   int deformation_, plastic_bending_;
-  Vec<2> fibre_stress_;   ///< Pa m: (m / (V0 h / 4)) over the elastic bending
-  Vec<2> bending_;        ///< Pa m^2: m / V0 over the elastic bending
-  double corner_modulus_; ///< Pa
+  Vec<2> fibre_stress_;    ///< Pa m: (m / (V0 h / 4)) over the elastic bending
+  Vec<2> bending_;         ///< Pa m^2: m / V0 over the elastic bending
+  double corner_modulus_;  ///< Pa
   std::vector<LocalIndex> corner_nodes_;
 };
 

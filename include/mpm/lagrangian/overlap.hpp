@@ -44,7 +44,8 @@ struct Part {
   Lanes first = 0.0, last = 1.0;
 
   /// By one side, from which start and end of the edge are so far; `crossing` is where it crosses
-  /// that. `along`: where it runs along the side, of these `out`: where it does not count as within.
+  /// that. `along`: where it runs along the side, of these `out`: where it does not count as
+  /// within.
   [[gnu::always_inline]] void cut(const Lanes& start, const Lanes& end, const Lanes& crossing,
                                   const LaneMask& along, const LaneMask& out)
   {

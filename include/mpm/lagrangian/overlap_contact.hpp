@@ -13,12 +13,12 @@
 namespace mpm {
 
 /// The potential is the sum over the cells c near surfaces of S_c / (2 A0) sum_d A_cd P_cd: A_cd is
-/// the area on which cell d lies on c, which has no side in common with it, P_cd that area and those
-/// of d's neighbours on c, A0 the area of a cell at rest and S_c = kappa C times the thickness, C the
-/// modulus of the fastest wave. Across a flush face the pressure is 2 kappa C times the depth over
-/// the size of a cell, however the lattices of the two sides lie to each other; what presses a cell
-/// from elsewhere does not enter. No normals, no closest features: what the corners bear is the
-/// derivative.
+/// the area on which cell d lies on c, which has no side in common with it, P_cd that area and
+/// those of d's neighbours on c, A0 the area of a cell at rest and S_c = kappa C times the
+/// thickness, C the modulus of the fastest wave. Across a flush face the pressure is 2 kappa C
+/// times the depth over the size of a cell, however the lattices of the two sides lie to each
+/// other; what presses a cell from elsewhere does not enter. No normals, no closest features: what
+/// the corners bear is the derivative.
 ///
 /// Each rank keeps the pairs of its own cells with others; of those on other ranks, and of
 /// images across periodic sides, it holds copies.
@@ -79,6 +79,15 @@ class OverlapContact {
     return &overlaps_[k / lane_count * values_per_group + k % lane_count];
   }
 
+  /// Lower x, lower y, upper x, upper y, m.
+  using Box = std::array<double, 4>;
+  /// Whether boxes are nearer than `distance`.
+  static bool meet(const Box& a, const Box& b, double distance)
+  {
+    return a[0] < b[2] + distance && b[0] < a[2] + distance && a[1] < b[3] + distance &&
+           b[1] < a[3] + distance;
+  }
+
   LocalIndex cells() const { return LocalIndex(cells_.size()); }
   double* corners_of(LocalIndex cell) { return &corners_[std::size_t(cell) * corner_values]; }
   void take_places(const MeshNodes<2>& nodes);
@@ -114,8 +123,8 @@ class OverlapContact {
   double skin_ = 0;
 
   /// Of this rank's cells, then of the ghosts.
-  std::vector<double> corners_;   ///< [n * corner_values], m
-  std::vector<std::array<double, 4>> boxes_;  ///< lower x, lower y, upper x, upper y, m
+  std::vector<double> corners_;  ///< [n * corner_values], m
+  std::vector<Box> boxes_;
   std::vector<double> stiffness_;
   std::vector<IndexVec<2>> locations_;
   std::vector<unsigned> open_corners_;
@@ -125,15 +134,15 @@ class OverlapContact {
   /// Whether the overlap is found as that of the second with the first: in the order of their
   /// locations, so that both ranks of a pair find the same bits.
   std::vector<char> turned_;
-  std::vector<Near> near_;          ///< those whose boxes meet
-  std::vector<double> areas_;       ///< of all pairs, m^2
+  std::vector<Near> near_;     ///< those whose boxes meet
+  std::vector<double> areas_;  ///< of all pairs, m^2
   /// Of every pair the first cell's S_c P_cd / A0, N/m, a zero, and the second cells' as
   /// `second_side_` has them: other ranks' last.
   std::vector<double> sides_;
   std::vector<LocalIndex> second_side_;
   std::vector<Touch> touches_;  ///< of cell c from first_touch_[c] on
   std::vector<LocalIndex> first_touch_;
-  LaneVector<double> overlaps_;   ///< per lane_count pairs in near_: area and its 16 derivatives
+  LaneVector<double> overlaps_;  ///< per lane_count pairs in near_: area and its 16 derivatives
   std::array<std::vector<double>, 2> places_then_;  ///< of nodes, m, when the pairs were found
   GlobalIndex touching_ = 0;
 };

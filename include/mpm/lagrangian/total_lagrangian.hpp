@@ -24,10 +24,10 @@ class TotalLagrangian final : public Formulation<2> {
     double thickness = 1;  ///< m
     /// kappa: across a flush face the pressure of contact is 2 kappa C times the depth over the
     /// size of a location. 0: bodies go through each other.
-    double contact_stiffness = 4;
+    double contact_stiffness = 2;
     /// Cells with a smaller least stretch are made heavier by the square of this over it, so that
     /// they do not shorten the step. 0: none.
-    double mass_scaling = 0.3;
+    double mass_scaling = 0.8;
   };
 
   TotalLagrangian(Decomposition<2> decomposition, Setup setup);

@@ -24,9 +24,8 @@ struct IsotropicConstants {
   /// direction holds them, or E.
   double bending_modulus(PlaneAssumption plane) const
   {
-    return plane == PlaneAssumption::strain
-               ? youngs_modulus / (1 - poisson_ratio * poisson_ratio)
-               : youngs_modulus;
+    return plane == PlaneAssumption::strain ? youngs_modulus / (1 - poisson_ratio * poisson_ratio)
+                                            : youngs_modulus;
   }
 };
 

@@ -115,8 +115,8 @@ struct Numerics {
   FormulationKind formulation = FormulationKind::updated_lagrangian;
   /// Of total_lagrangian: across a flush face pressure is 2 of it times the modulus of the fastest
   /// wave times the depth over the size of a location; 0: none.
-  double contact_stiffness = 4;
-  double mass_scaling = 0.3;     ///< least stretch of cells that keep their mass
+  double contact_stiffness = 2;
+  double mass_scaling = 0.8;    ///< least stretch of cells that keep their mass
   Plane plane = Plane::strain;  ///< of a scene in the plane
   double thickness = 1;         ///< m, out of the plane
   OneOf<ShapeRow> shape_function = "gimp";

@@ -24,7 +24,7 @@ struct Layout {
   double wave_speed;             ///< m/s, of the stiffest body
   double cfl;
   double crossed_in_step;  ///< m, the way of the fastest wave in a step of CFL 1
-  double largest_speed;  ///< m/s, initial, or of what is moved
+  double largest_speed;    ///< m/s, initial, or of what is moved
   /// Of the piston, towards the specimen; and the time at which the run ends, s.
   WallMotion piston;
   double end_time;

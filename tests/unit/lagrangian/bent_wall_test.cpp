@@ -127,14 +127,13 @@ std::unique_ptr<Law<2>> hypoelastic(PlaneAssumption plane)
   return make_hypoelastic_von_mises(plane, elastic, yield, density);
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, PlasticBending,
-                         ::testing::Values(Case{"HenckyPlaneStrain", hencky, PlaneAssumption::strain},
-                                           Case{"HenckyPlaneStress", hencky, PlaneAssumption::stress},
-                                           Case{"HypoelasticPlaneStrain", hypoelastic,
-                                                PlaneAssumption::strain},
-                                           Case{"HypoelasticPlaneStress", hypoelastic,
-                                                PlaneAssumption::stress}),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Laws, PlasticBending,
+    ::testing::Values(Case{"HenckyPlaneStrain", hencky, PlaneAssumption::strain},
+                      Case{"HenckyPlaneStress", hencky, PlaneAssumption::stress},
+                      Case{"HypoelasticPlaneStrain", hypoelastic, PlaneAssumption::strain},
+                      Case{"HypoelasticPlaneStress", hypoelastic, PlaneAssumption::stress}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace mpm
