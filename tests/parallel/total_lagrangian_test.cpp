@@ -60,7 +60,8 @@ class Ring {
   Ring(MPI_Comm comm, const Scene& scene) : comm_(comm)
   {
     const Decomposition<2> decomposition = shared_out(comm, scene.periodic);
-    TotalLagrangian::Setup setup{.bodies = {}, .location_size = size};
+    TotalLagrangian::Setup setup{
+        .bodies = {}, .location_size = size, .contact_stiffness = 4, .mass_scaling = 0.3};
     auto law = make_hencky(PlaneAssumption::strain, {youngs_modulus, 0.3}, density, scene.yield);
     ParticleStore store(LocationCells::columns(*law), law->state_columns(),
                         {"velocity", "mass", "initial_volume", "plastic_work"});
