@@ -2,6 +2,7 @@
 // comes near.
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
+#include <mpm/stepping/updated_lagrangian.hpp>
 
 #include <cmath>
 #include <limits>
@@ -44,7 +45,7 @@ TEST(Plan, NamesAsManyConditionsAsTheModelHas)
   const std::string grid = "grid: {cells: [10, 5]}\n";
   const auto expect_conditions = [&](const std::string& motion, std::size_t count) {
     const Started started(block(grid + motion));
-    EXPECT_EQ(started.model.setup.slots.conditions.size(), count) << motion;
+    EXPECT_EQ(started.model.slots.conditions.size(), count) << motion;
     EXPECT_EQ(started.preparation.plan.conditions.size(), count) << motion;
   };
   const std::string press = "loading: {piston: right, speed: 1 m/s, strain: 10 %, lateral: ";
@@ -81,7 +82,10 @@ TEST(EmptyRegions, HaveNodesThatAStepNeitherReadsNorWrites)
       block("grid: {cells: [10, 5], margin: 1 m}\n"
             "free_motion: {end_time: 1 s}\n"
             "loads: [{kind: gravity, acceleration: [1 m/s^2, 0 m/s^2]}]\n"));
-  UpdatedLagrangian<2> stepper(started.decomposition, std::move(started.model.setup));
+  const auto formulation =
+      make_formulation(started.scene, started.preparation.layout, started.decomposition,
+                       std::move(started.model));
+  auto& stepper = dynamic_cast<UpdatedLagrangian<2>&>(*formulation);
   const GridTopology<2>& grid = stepper.grid();
   const Plan::Nodes& planned = started.preparation.plan.nodes;
 

@@ -50,9 +50,9 @@ struct LoadedNodes : MovingNodes<Dim> {
   void step(Loads<Dim>& loads, double time, double dt)
   {
     const auto& topology = this->grid.topology;
-    loads.apply(topology, fields, time, dt);
+    loads.apply(topology, topology.runs(), fields, time, dt);
     fields.update_velocity(topology.runs(), dt);
-    loads.book(topology, fields, dt);
+    loads.book(topology, topology.runs(), fields, dt);
   }
   double force(LocalIndex node, int d) const { return fields.load_force[node * Dim + d]; }
   double mass(LocalIndex node) const { return fields.mass_of(node); }
