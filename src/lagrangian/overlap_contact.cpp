@@ -23,17 +23,22 @@ int reflex_corner(const double* corners)
 
 /// Counter-clockwise: a whole cell, then for each corner that may be a reflex one the two triangles
 /// through it.
-constexpr std::array<std::array<std::size_t, 4>, 9> corners_of_piece{{{0, 1, 2, 3},
-                                                                      {0, 1, 2, 2},
-                                                                      {0, 2, 3, 3},
-                                                                      {1, 2, 3, 3},
-                                                                      {1, 3, 0, 0},
-                                                                      {2, 3, 0, 0},
-                                                                      {2, 0, 1, 1},
-                                                                      {3, 0, 1, 1},
-                                                                      {3, 1, 2, 2}}};
+constexpr std::array<std::array<std::size_t, 4>, 9> pieces{{{0, 1, 2, 3},
+                                                            {0, 1, 2, 2},
+                                                            {0, 2, 3, 3},
+                                                            {1, 2, 3, 3},
+                                                            {1, 3, 0, 0},
+                                                            {2, 3, 0, 0},
+                                                            {2, 0, 1, 1},
+                                                            {3, 0, 1, 1},
+                                                            {3, 1, 2, 2}}};
 
 }  // namespace
+
+const std::array<std::size_t, 4>& OverlapContact::corners_of_piece(int piece)
+{
+  return pieces[std::size_t(piece)];
+}
 
 OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec<2>& size,
                                const IndexVec<2>& period)
@@ -101,8 +106,8 @@ void OverlapContact::find_overlaps()
       const double *first = corners_of(pairs_[near.pair].first),
                    *second = corners_of(pairs_[near.pair].second);
       if (turned_[near.pair]) std::swap(first, second);
-      const auto& one = corners_of_piece[std::size_t(near.first_piece)];
-      const auto& other = corners_of_piece[std::size_t(near.second_piece)];
+      const auto& one = corners_of_piece(near.first_piece);
+      const auto& other = corners_of_piece(near.second_piece);
       for (std::size_t k = 0; k < corner_values; ++k) {
         const std::size_t axis = k < 4 ? 0 : 4;
         a[k * lane_count + lane] = first[axis + one[k % 4]] - first[axis];
@@ -195,7 +200,7 @@ void OverlapContact::add_forces(NodeFields<2>& fields) const
     const auto push_corners = [&](LocalIndex cell, int piece, const double* derivative) {
       if (cell >= cells()) return;
       for (std::size_t c = 0; c < 4; ++c) {
-        const std::size_t corner = corners_of_piece[std::size_t(piece)][c];
+        const std::size_t corner = corners_of_piece(piece)[c];
         double* force = fields.force_of(cells_[std::size_t(cell)].nodes[corner]);
         force[0] -= push * derivative[c * lane_count];
         force[1] -= push * derivative[(c + 4) * lane_count];

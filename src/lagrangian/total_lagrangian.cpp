@@ -41,6 +41,7 @@ void TotalLagrangian::step(double dt)
   for (const auto& condition : setup_.slots.conditions)
     condition->stop(*nodes_, *fields_, time_, dt);
   setup_.slots.loads.book(*nodes_, runs(), *fields_, between);
+  book_friction(between);
   largest_speed_ = std::max(largest_speed_, nodes_->move(*fields_, dt));
   fields_->carry_momentum(runs());
   particles_are_present_ = false;
@@ -68,11 +69,31 @@ void TotalLagrangian::add_forces(double dt)
   if (contact_) {
     contact_->measure(*nodes_);
     contact_->add_forces(*fields_);
+    if (setup_.friction > 0) {
+      std::fill(friction_.begin(), friction_.end(), 0.0);
+      contact_->add_friction(*fields_, setup_.friction, dt, friction_);
+    }
   }
   std::vector<NodeColumn> columns{fields_->force_column()};
+  if (!friction_.empty()) columns.push_back({friction_.data(), 2, 2});
   if (setup_.slots.loads.act_on_particles()) columns.push_back(fields_->load_force_column());
   add_loads_on_particles();
   halo_->sum(columns);
+  for (LocalIndex node = 0; node < LocalIndex(friction_.size() / 2); ++node)
+    for (int d = 0; d < 2; ++d)
+      fields_->force_of(node)[d] += friction_[std::size_t(node) * 2 + std::size_t(d)];
+}
+
+/// What it took from the bodies in the step that ends.
+void TotalLagrangian::book_friction(double dt)
+{
+  for (LocalIndex node = 0; node < LocalIndex(friction_.size() / 2); ++node) {
+    if (!nodes_->is_owned(node)) continue;
+    const double* u = fields_->updated_of(node);
+    for (int d = 0; d < 2; ++d)
+      friction_work_ -=
+          dt * friction_[std::size_t(node) * 2 + std::size_t(d)] * (u[d] - 0.5 * u[2 + d]);
+  }
 }
 
 /// f_i of the cells at a node, and no load yet.
@@ -148,7 +169,8 @@ Carried<2> TotalLagrangian::carried() const
   for (std::size_t b = 0; b < cells_.size(); ++b)
     carried.elastic_energy += cells_[b].bending_energy(setup_.bodies[b], *nodes_);
   if (contact_)
-    carried.contact = {contact_->energy(), contact_->overlapped_area(), contact_->touching()};
+    carried.contact = {contact_->energy(), contact_->overlapped_area(), contact_->touching(),
+                       friction_work_};
   return carried;
 }
 
@@ -276,8 +298,9 @@ Counters TotalLagrangian::counters() const
 
 std::size_t TotalLagrangian::bytes() const
 {
-  std::size_t bytes = nodes_->bytes() + fields_->bytes() + node_terms_.size() * sizeof(int) +
-                      cell_forces_.size() * sizeof(double);
+  std::size_t bytes =
+      nodes_->bytes() + fields_->bytes() + node_terms_.size() * sizeof(int) +
+      (cell_forces_.size() + first_masses_.size() + friction_.size()) * sizeof(double);
   for (const LocationCells& cells : cells_) bytes += cells.bytes();
   for (const Body<2>& body : setup_.bodies) bytes += body.particles.bytes();
   return contact_ ? bytes + contact_->bytes() : bytes;
@@ -290,6 +313,8 @@ void TotalLagrangian::archive(Archive& archive)
   archive.value("checked", checked_);
   archive.value("last_step", last_step_);
   archive.value("largest_speed", largest_speed_);
+  archive.values("friction", friction_);
+  archive.value("friction_work", friction_work_);
   {
     const Archive::Section section(archive, "agreed");
     agreed_.archive(archive);

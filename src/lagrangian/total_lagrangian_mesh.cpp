@@ -86,9 +86,7 @@ void TotalLagrangian::make_mesh()
   LocationMesh<2> mesh = make_location_mesh<2>(cells, me, rank_of, period);
   nodes_.emplace(std::move(mesh.nodes), std::move(mesh.owned), setup_.location_size, period);
   run_ = nodes_->run();
-  fields_.emplace(
-      nodes_->size(),
-      NodeFields<2>::Needs{.load_force = !setup_.slots.loads.empty(), .gradient = false}, 0.0);
+  fields_.emplace(nodes_->size(), mesh_needs<2>(!setup_.slots.loads.empty()), 0.0);
   halo_.emplace(comm, std::move(mesh.shared));
   std::size_t first = 0;
   for (const Body<2>& body : setup_.bodies) {
@@ -98,10 +96,9 @@ void TotalLagrangian::make_mesh()
   }
   list_node_terms();
   if (setup_.contact_stiffness > 0) make_contact(mesh.cells, rank_of);
+  if (contact_ && setup_.friction > 0) friction_.assign(2 * std::size_t(nodes_->size()), 0.0);
 }
 
-/// Cells with a side at which there is no other, and those around them: where much presses, corners
-/// come through the outer layer, and would meet nothing behind it.
 void TotalLagrangian::make_contact(const std::vector<LocationCells::CellNodes>& cells,
                                    const std::function<int(const IndexVec<2>&)>& rank_of)
 {
@@ -128,12 +125,7 @@ void TotalLagrangian::make_contact(const std::vector<LocationCells::CellNodes>& 
         setup_.contact_stiffness * body.density * wave * wave * setup_.thickness;
     for (LocalIndex p = 0; p < body.particles.size(); ++p, ++number) {
       const IndexVec<2> location = location_of(body, p);
-      bool surrounded = true;
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i)
-          surrounded = surrounded && is_taken(location + IndexVec<2>(i, j)) &&
-                       open_corners(location + IndexVec<2>(i, j)) == 0;
-      if (surrounded) continue;
+      if (!near_surface<2>(location, is_taken)) continue;
       const auto& n = cells[number];
       near.push_back({{n[0], n[1], n[3], n[2]}, location, stiffness, open_corners(location)});
     }

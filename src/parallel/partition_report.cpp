@@ -44,7 +44,7 @@ PartitionReport report_on(const Ownership<Dim>& ownership, int support,
 
 template <int Dim>
 std::string partition_table(const GridGeometry<Dim>& geometry, const std::vector<int>& ranks,
-                            const PartitionRules<Dim>& rules, int support,
+                            const PartitionRules<Dim>& rules, const Reporter<Dim>& report,
                             const CellVisits<Dim>& before, const CellVisits<Dim>& after)
 {
   std::string text = fmt::format("{:>6}  {:<5}  {:<22} {:>9} {:>13} {:>10} {:>11}\n", "ranks",
@@ -60,11 +60,11 @@ std::string partition_table(const GridGeometry<Dim>& geometry, const std::vector
       const char* name = cuts ? "cuts" : "METIS";
       try {
         const Ownership<Dim> start = choose(before, nullptr);
-        text += line(count, name, "start", report_on(start, support, before));
+        text += line(count, name, "start", report(start, before));
         if (!after) continue;
-        text += line(count, name, "compressed, as it was", report_on(start, support, after));
+        text += line(count, name, "compressed, as it was", report(start, after));
         const Ownership<Dim> moved = choose(after, &start);
-        text += line(count, name, "compressed, moved", report_on(moved, support, after));
+        text += line(count, name, "compressed, moved", report(moved, after));
       } catch (const InputError& error) {
         text += fmt::format("{:>6}  {:<5}  {}\n", count, name, error.what());
       }
@@ -75,10 +75,10 @@ std::string partition_table(const GridGeometry<Dim>& geometry, const std::vector
 template PartitionReport report_on(const Ownership<2>&, int, const CellVisits<2>&);
 template PartitionReport report_on(const Ownership<3>&, int, const CellVisits<3>&);
 template std::string partition_table(const GridGeometry<2>&, const std::vector<int>&,
-                                     const PartitionRules<2>&, int, const CellVisits<2>&,
-                                     const CellVisits<2>&);
+                                     const PartitionRules<2>&, const Reporter<2>&,
+                                     const CellVisits<2>&, const CellVisits<2>&);
 template std::string partition_table(const GridGeometry<3>&, const std::vector<int>&,
-                                     const PartitionRules<3>&, int, const CellVisits<3>&,
-                                     const CellVisits<3>&);
+                                     const PartitionRules<3>&, const Reporter<3>&,
+                                     const CellVisits<3>&, const CellVisits<3>&);
 
 }  // namespace mpm

@@ -32,6 +32,13 @@ template <>
 const std::vector<Parameter<Numerics>>& parameters<Numerics>()
 {
   using N = Numerics;
+  const auto on_grid = [](const N& n) {
+    return n.formulation == FormulationKind::updated_lagrangian;
+  };
+  const Condition<N> of_grid{on_grid, "formulation: updated_lagrangian"};
+  const Condition<N> of_cells{
+      [](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
+      "formulation: total_lagrangian"};
   static const std::vector<Parameter<N>> rows{
       member<N>("formulation", &N::formulation, {},
                 "weights in the present configuration, on a grid that forgets; or in the reference "
@@ -39,37 +46,45 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       member<N>("contact_stiffness", &N::contact_stiffness, {.bound = from_to(0, 100)},
                 "twice this times the modulus of the fastest wave times the depth over the size of "
                 "a location is the pressure across a flush contact; 0: no contact")
-          .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
-                 "formulation: total_lagrangian"}),
+          .when(of_cells),
+      member<N>("friction", &N::friction, {.bound = at_least(0)},
+                "Coulomb's coefficient where cells meet; large: what meets sticks")
+          .when(of_cells),
       member<N>("mass_scaling", &N::mass_scaling, {.bound = from_to(0, 1)},
                 "cells with a smaller least stretch are made heavier, by the square of this over "
                 "it, so that they do not shorten the step; 0: none")
-          .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
-                 "formulation: total_lagrangian"}),
+          .when(of_cells),
       member<N>("plane", &N::plane, {}, "plane strain or plane stress").in_plane(),
       member<N>("thickness", &N::thickness, {.quantity = Quantity::length, .bound = above(0)},
                 "out of the plane")
           .in_plane(),
-      member<N>("shape_function", &N::shape_function, {}, "how particles and nodes share"),
+      member<N>("shape_function", &N::shape_function, {}, "how particles and nodes share")
+          .when(of_grid),
       member<N>("domain", &N::domain, {.bound = from_to(0.25, 8)},
                 "size of GIMP's domains over that of a particle; at most a cell")
-          .when({[](const N& n) { return n.shape_function->has_domain; }, "shape_function: gimp"}),
-      member<N>("scheme", &N::scheme, {}, "what particles take from the grid"),
+          .when({[on_grid](const N& n) { return on_grid(n) && n.shape_function->has_domain; },
+                 "shape_function: gimp"}),
+      member<N>("scheme", &N::scheme, {}, "what particles take from the grid").when(of_grid),
       member<N>("pic_share", &N::pic_share, {.bound = from_to(0, 1)},
                 "of the grid's velocity in the particles', each step: a blend of FLIP and PIC")
-          .when({[](const N& n) { return n.scheme->book == ReactionBook::increments; },
+          .when({[on_grid](const N& n) {
+                   return on_grid(n) && n.scheme->book == ReactionBook::increments;
+                 },
                  "scheme: flip"}),
       member<N>("refinement_order", &N::refinement_order, {.bound = from_to(2, 8)},
                 "k of FMPM(k), m of XPIC(m): how far the mass matrix is inverted; each more is a "
                 "pass")
-          .when({[](const N& n) { return n.scheme->refines; }, "scheme: fmpm or xpic"}),
+          .when({[on_grid](const N& n) { return on_grid(n) && n.scheme->refines; },
+                 "scheme: fmpm or xpic"}),
       member<N>(
           "update_order", &N::update_order, {},
           "stress from re-mapped velocities (musl; moves too: musl_displacement), before (usf) or "
-          "after (usl) the forces, or one half of it before and one after (usavg)"),
+          "after (usl) the forces, or one half of it before and one after (usavg)")
+          .when(of_grid),
       member<N>("f_bar", &N::f_bar, {},
                 "volumetric increments averaged around every node, against locking near Poisson's "
-                "ratio 1/2; not in plane stress"),
+                "ratio 1/2; not in plane stress")
+          .when(of_grid),
       member<N>("cfl", &N::cfl,
                 {.bound = {End{0, false}, End{3, true}},
                  .default_text = "by shape function and update order"},
@@ -79,7 +94,8 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       member<N>("ranks", &N::ranks, {.bound = at_least(0), .default_text = "chosen"},
                 "process grid of cuts along each axis; 0: chosen"),
       member<N>("repartition_interval", &N::repartition_interval, {.bound = at_least(0)},
-                "move the borders between ranks every so many steps (for tests); 0: when it pays"),
+                "move the borders between ranks every so many steps (for tests); 0: when it pays")
+          .when(of_grid),
       member<N>("recovery", &N::recovery, {},
                 "after a numerical failure: end the run, or go back to the last sound state and on "
                 "with half the step, four times at most"),

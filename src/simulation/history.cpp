@@ -44,6 +44,7 @@ constexpr Member<double> measured[] = {{"time", &HistoryLine::time},
                                        {"plastic_work", &HistoryLine::plastic_work},
                                        {"external_work", &HistoryLine::external_work},
                                        {"contact_energy", &HistoryLine::contact_energy},
+                                       {"friction_work", &HistoryLine::friction_work},
                                        {"overlapped_area", &HistoryLine::overlapped_area},
                                        {"energy_error", &HistoryLine::energy_error},
                                        {"momentum_error", &HistoryLine::momentum_error},
@@ -87,6 +88,7 @@ std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind)
     list.push_back({energy, "J"});
   if (kind.contact) {
     list.push_back({"contact_energy", "J"});
+    list.push_back({"friction_work", "J"});
     list.push_back({"overlapped_area", "m2"});
     list.push_back({"contact_pairs", "1"});
   }
@@ -111,8 +113,8 @@ std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind
   values.insert(values.end(),
                 {line.kinetic_energy, line.elastic_energy, line.plastic_work, line.external_work});
   if (kind.contact)
-    values.insert(values.end(),
-                  {line.contact_energy, line.overlapped_area, double(line.contact_pairs)});
+    values.insert(values.end(), {line.contact_energy, line.friction_work, line.overlapped_area,
+                                 double(line.contact_pairs)});
   values.insert(values.end(),
                 {line.energy_error, line.momentum_error, double(line.particles), line.time_step});
   if (kind.piston)
@@ -248,6 +250,7 @@ const HistoryLine& History<Dim>::record(double dt)
   line.plastic_work = sums.plastic_work;
   if (sums.contact) {
     line.contact_energy = sums.contact->energy;
+    line.friction_work = sums.contact->friction_work;
     line.overlapped_area = sums.contact->overlapped_area;
     line.contact_pairs = sums.contact->pairs;
   }

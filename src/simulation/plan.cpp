@@ -1,5 +1,7 @@
+#include <mpm/lagrangian/location_mesh.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/parallel/shared_nodes.hpp>
+#include <mpm/simulation/mesh_count.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
 #include <mpm/simulation/plan.hpp>
@@ -56,15 +58,13 @@ template <int Dim>
 Plan::Nodes nodes_of(const Preparation<Dim>& preparation, int support)
 {
   const Ownership<Dim>& ownership = preparation.partition.ownership;
-  const StencilReach reach(support);
   const scene::Numerics& numerics = preparation.scene.numerics;
   const auto needs = node_needs<Dim>(*numerics.update_order, extras_of(numerics),
                                      loads_of<Dim>(preparation.scene));
   Plan::Nodes nodes{.in_grid = ownership.geometry().nodes.template cast<double>().prod(),
                     .allocated = 0,
                     .largest_rank = 0,
-                    .below = reach.below,
-                    .above = reach.above,
+                    .reach = StencilReach(support),
                     .columns = node_columns<Dim>(needs)};
   for (int rank = 0; rank < ownership.ranks(); ++rank) {
     const double box = double(ownership.local(rank, support).size());
@@ -98,6 +98,48 @@ std::vector<std::string> conditions_of(const Preparation<Dim>& preparation)
     for (const scene::MovingSide& moving : free->moving_sides)
       list.push_back(fmt::format("{}: moving wall", side_words[std::size_t(moving.side)]));
   return list;
+}
+
+/// Of each node and each cell of a mesh. Collective.
+template <int Dim>
+void plan_mesh(const Preparation<Dim>& preparation, Plan& plan)
+{
+  const Loads<Dim> loads = loads_of<Dim>(preparation.scene);
+  const int rank = rank_of(preparation.comm);
+  const std::vector<MeshCount> counts =
+      count_mesh(preparation.scene, preparation.specimen, preparation.layout,
+                 preparation.partition.ownership, preparation.comm);
+  plan.nodes = {
+      .in_grid = (preparation.specimen.count().array() + 1).template cast<double>().prod(),
+      .allocated = 0,
+      .largest_rank = 0,
+      .reach = std::nullopt,
+      .columns = mesh_node_columns<Dim>(mesh_needs<Dim>(!loads.empty()))};
+  for (const MeshCount& count : counts) {
+    plan.nodes.allocated += count.nodes;
+    plan.nodes.largest_rank = std::max(plan.nodes.largest_rank, count.nodes);
+    plan.hinges += count.hinges;
+    if (preparation.scene.numerics.contact_stiffness > 0) plan.contact_cells += count.contact_cells;
+  }
+  if (preparation.scene.numerics.friction > 0)
+    plan.nodes.columns.push_back({"friction", Dim * int(sizeof(double))});
+  constexpr int corners = LocationMesh<Dim>::corners;
+  for (Plan::Particles& body : plan.bodies)
+    body.columns.insert(body.columns.end(),
+                        {{"corners", corners * int(sizeof(LocalIndex))},
+                         {"corner_forces", corners * Dim * int(sizeof(double))}});
+  PassOutline& pass = plan.passes.emplace_back();
+  pass.name = "cells";
+  pass.sums = {"force"};
+  if (loads.act_on_particles()) pass.sums.push_back("load_force");
+  pass.values_per_node = Dim * int(pass.sums.size());
+  const MeshCount& mine = counts[std::size_t(rank)];
+  std::array<double, 2> largest{
+      mine.sharers,
+      double(sizeof(double)) * (pass.values_per_node * mine.sent_nodes + mine.sharers)};
+  largest_over_ranks(preparation.comm, largest);
+  plan.messages_per_step = largest[0];
+  plan.bytes_per_step = largest[1];
 }
 
 /// Collective.
@@ -156,17 +198,21 @@ Plan make_plan(const Preparation<Dim>& preparation)
 {
   const scene::Scene& scene = preparation.scene;
   const scene::Numerics& numerics = scene.numerics;
-  const auto transfer = make_transfer<Dim>(numerics, preparation.layout.per_cell);
   Plan plan;
   plan.method = method_words(numerics, Dim);
   plan.bodies = bodies_of(preparation, preparation.layout.per_cell);
-  plan.nodes = nodes_of(preparation, transfer->support());
-  plan.passes = outline_step<Dim>(numerics.update_order, extras_of(numerics),
-                                  loads_of<Dim>(scene).act_on_particles());
+  if (is_total_lagrangian(numerics)) {
+    plan_mesh(preparation, plan);
+  } else {
+    const int support = make_transfer<Dim>(numerics, preparation.layout.per_cell)->support();
+    plan.nodes = nodes_of(preparation, support);
+    plan.passes = outline_step<Dim>(numerics.update_order, extras_of(numerics),
+                                    loads_of<Dim>(scene).act_on_particles());
+    measure_messages(preparation, support, plan);
+  }
   plan.conditions = conditions_of(preparation);
   for (const scene::Load& load : scene.loads)
     plan.loads.push_back(load.kind->keyword + ": " + load.kind->help);
-  measure_messages(preparation, transfer->support(), plan);
   plan.left_out = left_out(preparation, plan);
   plan.time_step = time_step_of(preparation.layout).first();
   plan.steps = expected_steps(scene, preparation.layout);

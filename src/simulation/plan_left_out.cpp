@@ -37,6 +37,27 @@ bool any_periodic(const scene::Scene& scene, int dimensions)
   return false;
 }
 
+void leave_out_of_grid_step(const scene::Numerics& numerics, const Plan& plan,
+                            std::vector<Plan::LeftOut>& list)
+{
+  const auto add_if = [&](bool absent, std::string what, std::string why) {
+    if (absent) list.push_back({std::move(what), std::move(why)});
+  };
+  add_if(!particles_hold(plan, "deformation_gradient"), "deformation gradient", "no law needs it");
+  add_if(!particles_hold(plan, "affine_velocity"), "affine velocity",
+         fmt::format("not of scheme {}", numerics.scheme->keyword));
+  add_if(!particles_hold(plan, domain_column), "particle domains",
+         fmt::format("not of shape function {}", numerics.shape_function->keyword));
+  add_if(!particles_hold(plan, "grid_velocity"), "grid velocity of particles",
+         fmt::format("{} moves them as it reads it", numerics.update_order->keyword));
+  add_if(!holds(plan.nodes.columns, "remapped_momentum"), "re-mapped momentum",
+         fmt::format("{} maps no velocity back", numerics.update_order->keyword));
+  const StepExtras extras = extras_of(numerics);
+  add_if(extras.refinements == 0, "refinements of velocity",
+         fmt::format("not of scheme {}", numerics.scheme->keyword));
+  add_if(!extras.f_bar, "means of the divergence", "numerics.f_bar is false");
+}
+
 }  // namespace
 
 template <int Dim>
@@ -52,21 +73,18 @@ std::vector<Plan::LeftOut> left_out(const Preparation<Dim>& preparation, const P
   add_if(Dim == 2, "third component", "the scene lies in the plane");
   add_if(!particles_hold(plan, "plastic_strain"), "plastic strain and work",
          "no material can yield");
-  add_if(!particles_hold(plan, "deformation_gradient"), "deformation gradient", "no law needs it");
-  add_if(!particles_hold(plan, "affine_velocity"), "affine velocity",
-         fmt::format("not of scheme {}", numerics.scheme->keyword));
-  add_if(!particles_hold(plan, domain_column), "particle domains",
-         fmt::format("not of shape function {}", numerics.shape_function->keyword));
-  add_if(!particles_hold(plan, "grid_velocity"), "grid velocity of particles",
-         fmt::format("{} moves them as it reads it", numerics.update_order->keyword));
+  if (is_total_lagrangian(numerics))
+    list.insert(list.end(),
+                {{"sorting and migration", "cells keep their neighbours, and stay on their rank"},
+                 {"stencils and weights", "they never change"},
+                 {"empty nodes", "there is none without a cell"},
+                 {"re-mapped momentum", "velocities stay on the nodes"}});
+  else
+    leave_out_of_grid_step(numerics, plan, list);
+  add_if(is_total_lagrangian(numerics) && numerics.contact_stiffness == 0, "contact",
+         "numerics.contact_stiffness is 0");
   add_if(!particles_hold(plan, "initial_position"), "first places",
          "no exact solution, no load that follows them");
-  add_if(!holds(plan.nodes.columns, "remapped_momentum"), "re-mapped momentum",
-         fmt::format("{} maps no velocity back", numerics.update_order->keyword));
-  const StepExtras extras = extras_of(numerics);
-  add_if(extras.refinements == 0, "refinements of velocity",
-         fmt::format("not of scheme {}", numerics.scheme->keyword));
-  add_if(!extras.f_bar, "means of the divergence", "numerics.f_bar is false");
   add_if(plan.loads.empty(), "loads and their forces", "the scene names none");
   add_if(loading && plan.conditions.size() == 2, "walls beside the travel", "no side is one");
   add_if(!loading && plan.conditions.empty(), "walls", "no side is one");

@@ -18,10 +18,14 @@ void describe(const Plan& plan, output::Summary& summary)
   nodes.set("in_grid", std::int64_t(plan.nodes.in_grid));
   nodes.set("allocated", std::int64_t(plan.nodes.allocated));
   nodes.set("largest_rank", std::int64_t(plan.nodes.largest_rank));
-  nodes.set("updated_below_cell", plan.nodes.below);
-  nodes.set("updated_above_cell", plan.nodes.above);
+  if (plan.nodes.reach) {
+    nodes.set("updated_below_cell", plan.nodes.reach->below);
+    nodes.set("updated_above_cell", plan.nodes.reach->above);
+  }
   for (const NodeBytes& column : plan.nodes.columns)
     nodes.section("bytes").set(column.name, column.bytes);
+  if (plan.contact_cells > 0) summary.set("contact_cells", std::int64_t(plan.contact_cells));
+  if (!plan.nodes.reach) summary.set("hinges", std::int64_t(plan.hinges));
   std::vector<std::string> passes;
   std::vector<std::int64_t> values;
   for (const PassOutline& pass : plan.passes) {

@@ -1,5 +1,6 @@
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/kept_state.hpp>
+#include <mpm/simulation/method.hpp>
 #include <mpm/simulation/preparation.hpp>
 
 #include <fmt/format.h>
@@ -9,10 +10,14 @@ namespace mpm {
 
 namespace {
 
+/// ns, with contact, over the whole crush of shipped woods.
+constexpr double cost_of_cells = 45;
+
 /// Of the cost in the plane, by the shipped block scenes: a stencil has support times the nodes.
 template <int Dim>
 double step_cost(const scene::Numerics& numerics)
 {
+  if (is_total_lagrangian(numerics)) return cost_of_cells;
   return numerics.shape_function->step_cost * (Dim == 2 ? 1.0 : 2.5);
 }
 
@@ -115,8 +120,17 @@ std::string plan_text(const Preparation<Dim>& preparation)
   line("ranks", ranks_text(preparation.partition));
   line("memory", fmt::format("{} B per particle, {} B per node, {} in all",
                              plan.bytes_per_particle(), plan.nodes.bytes(), memory(plan.bytes())));
-  line("nodes", fmt::format("{:.0f} allocated; updated: {} below to {} above used cells",
-                            plan.nodes.allocated, plan.nodes.below, plan.nodes.above));
+  line("nodes",
+       fmt::format("{:.0f} allocated; updated: ", plan.nodes.allocated) +
+           (plan.nodes.reach ? fmt::format("{} below to {} above used cells",
+                                           plan.nodes.reach->below, plan.nodes.reach->above)
+                             : "all"));
+  if (plan.contact_cells > 0)
+    line("contact",
+         fmt::format("{:.0f} cells may meet others: those near a surface", plan.contact_cells));
+  if (plan.hinges > 0)
+    line("hinges",
+         fmt::format("{:.0f} nodes at which walls hang together by a corner alone", plan.hinges));
   line("last sound state", fmt::format("{} more at most, kept every {} steps for",
                                        memory(plan.bytes()), KeptState<Dim>::steps_between));
   line("", scene.numerics.recovery == scene::Recovery::retry

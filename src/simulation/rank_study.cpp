@@ -1,4 +1,5 @@
 #include <mpm/parallel/partition_report.hpp>
+#include <mpm/simulation/mesh_count.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/preparation.hpp>
 
@@ -34,6 +35,35 @@ CellVisits<Dim> squeezed(const CellVisits<Dim>& cells, const scene::Loading& loa
   };
 }
 
+template <int Dim>
+PartitionReport report_on_mesh(const Preparation<Dim>& preparation, const Ownership<Dim>& ownership,
+                               const CellVisits<Dim>& particles)
+{
+  PartitionReport report;
+  report.imbalance = imbalance_of(loads_of(ownership, particles));
+  for (const MeshCount& count : count_mesh(preparation.scene, preparation.specimen,
+                                           preparation.layout, ownership, MPI_COMM_SELF)) {
+    report.shared_nodes = std::max(report.shared_nodes, GlobalIndex(count.shared_nodes));
+    report.messages = std::max(report.messages, int(count.sharers));
+    report.bytes = std::max(report.bytes, GlobalIndex(sizeof(double) * Dim * count.sent_nodes));
+  }
+  return report;
+}
+
+template <int Dim>
+Reporter<Dim> reporter_of(const Preparation<Dim>& preparation)
+{
+  const scene::Numerics& numerics = preparation.scene.numerics;
+  if (is_total_lagrangian(numerics))
+    return [&](const Ownership<Dim>& ownership, const CellVisits<Dim>& cells) {
+      return report_on_mesh(preparation, ownership, cells);
+    };
+  const int support = make_transfer<Dim>(numerics, preparation.layout.per_cell)->support();
+  return [support](const Ownership<Dim>& ownership, const CellVisits<Dim>& cells) {
+    return report_on(ownership, support, cells);
+  };
+}
+
 }  // namespace
 
 template <int Dim>
@@ -48,12 +78,14 @@ std::string rank_study_text(const Preparation<Dim>& preparation, const std::vect
   CellVisits<Dim> later;
   if (const auto* loading = std::get_if<scene::Loading>(&scene.motion))
     later = squeezed(start, *loading, specimen, layout);
-  const int support = make_transfer<Dim>(scene.numerics, layout.per_cell)->support();
+  // Cells stay on their rank.
+  if (is_total_lagrangian(scene.numerics)) later = nullptr;
   std::string text = partition_table<Dim>(layout.geometry, ranks, partition_rules<Dim>(scene),
-                                          support, start, later);
+                                          reporter_of(preparation), start, later);
   text +=
       "imbalance: particles of the fullest rank over the mean; the others: the rank with most, ";
-  text += "messages and bytes per exchange of mass, momentum and force\n";
+  text += fmt::format("messages and bytes per exchange of {}\n",
+                      is_total_lagrangian(scene.numerics) ? "forces" : "mass, momentum and force");
   if (later)
     text += fmt::format("compressed: all places squeezed evenly to {:.0f} % strain\n",
                         100 * study_strain);

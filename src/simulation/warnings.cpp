@@ -31,8 +31,8 @@ constexpr double crushing_strain = 0.1, early_strain = 0.01;
 using Warnings = std::vector<std::string>;
 
 template <int Dim>
-void look_at_walls(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
-                   const micrograph::Share& share, Warnings& warnings)
+void look_at_thin_walls(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+                        const micrograph::Share& share, Warnings& warnings)
 {
   const auto count = micrograph::count_thin(specimen, std::span(scene.materials),
                                             micrograph::thin_wall_cells, share);
@@ -42,6 +42,11 @@ void look_at_walls(const scene::Scene& scene, const micrograph::Specimen<Dim>& s
         fmt::format("{:.0f} % of the wall is thinner than two cells: too stiff in bending by tens "
                     "of percent. Refine grid.cells, or quote no figure without a finer run.",
                     100 * thin));
+}
+
+template <int Dim>
+void look_at_pieces(const micrograph::Specimen<Dim>& specimen, Warnings& warnings)
+{
   if (!specimen.picture() || specimen.picture()->unconnected == 0) return;
   warnings.push_back(
       fmt::format("{:.2g} % of the wall ({} of {} particles) is in pieces that do not hang on the "
@@ -170,9 +175,10 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
                                      const Layout<Dim>& layout, const micrograph::Share& share)
 {
   Warnings warnings;
-  look_at_walls(scene, specimen, share, warnings);
-  look_at_speed(scene, specimen, layout, warnings);
   const bool on_a_grid = !is_total_lagrangian(scene.numerics);
+  if (on_a_grid) look_at_thin_walls(scene, specimen, share, warnings);
+  look_at_pieces(specimen, warnings);
+  look_at_speed(scene, specimen, layout, warnings);
   if (on_a_grid) {
     look_at_order(scene.numerics, warnings);
     look_at_locking(scene, warnings);

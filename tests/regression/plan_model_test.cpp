@@ -82,9 +82,8 @@ TEST(EmptyRegions, HaveNodesThatAStepNeitherReadsNorWrites)
       block("grid: {cells: [10, 5], margin: 1 m}\n"
             "free_motion: {end_time: 1 s}\n"
             "loads: [{kind: gravity, acceleration: [1 m/s^2, 0 m/s^2]}]\n"));
-  const auto formulation =
-      make_formulation(started.scene, started.preparation.layout, started.decomposition,
-                       std::move(started.model));
+  const auto formulation = make_formulation(started.scene, started.preparation.layout,
+                                            started.decomposition, std::move(started.model));
   auto& stepper = dynamic_cast<UpdatedLagrangian<2>&>(*formulation);
   const GridTopology<2>& grid = stepper.grid();
   const Plan::Nodes& planned = started.preparation.plan.nodes;
@@ -96,7 +95,8 @@ TEST(EmptyRegions, HaveNodesThatAStepNeitherReadsNorWrites)
     const IndexVec<2> at = grid.index(node);
     bool near = true;
     for (int d = 0; d < 2; ++d)
-      near = near && at[d] >= first - planned.below && at[d] <= last[d] + planned.above;
+      near =
+          near && at[d] >= first - planned.reach->below && at[d] <= last[d] + planned.reach->above;
     if (!near) far.push_back(node);
   }
   ASSERT_EQ(far.size(), 35u * 30 - (10 + 5) * (5 + 5));

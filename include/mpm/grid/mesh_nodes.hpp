@@ -55,4 +55,11 @@ class MeshNodes final : public Nodes<Dim> {
   GlobalIndex listing_;
 };
 
+/// What such nodes carry.
+template <int Dim>
+typename NodeFields<Dim>::Needs mesh_needs(bool loads)
+{
+  return {.load_force = loads, .gradient = false};
+}
+
 }  // namespace mpm

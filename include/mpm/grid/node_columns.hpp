@@ -18,4 +18,8 @@ struct NodeBytes {
 template <int Dim>
 std::vector<NodeBytes> node_columns(const typename NodeFields<Dim>::Needs& needs);
 
+/// The same of nodes that move with a body, and what a step keeps beside them.
+template <int Dim>
+std::vector<NodeBytes> mesh_node_columns(const typename NodeFields<Dim>::Needs& needs);
+
 }  // namespace mpm

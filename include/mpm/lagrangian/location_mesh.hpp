@@ -1,7 +1,7 @@
 #pragma once
 /// Cells of one rank that are locations of the lattice, and the nodes at their corners.
 
-#include <mpm/core/types.hpp>
+#include <mpm/core/index_box.hpp>
 #include <mpm/parallel/shared_nodes.hpp>
 
 #include <array>
@@ -32,6 +32,29 @@ struct LocationMesh {
   std::vector<char> owned;           ///< by one rank each; images by nobody
   SharedNodes shared;
 };
+
+/// Locations beyond which none decides whether a cell is near a surface.
+inline constexpr LocalIndex contact_reach = 2;
+
+/// Whether a cell has a face with no cell behind it, or touches one that has: where much presses,
+/// corners come through the outer layer, and would meet nothing behind it.
+template <int Dim, class IsTaken>
+bool near_surface(const IndexVec<Dim>& location, const IsTaken& is_taken)
+{
+  bool found = false;
+  const IndexVec<Dim> one = IndexVec<Dim>::Constant(1);
+  for_each_index(IndexBox<Dim>{location - one, location + 2 * one}, [&](IndexVec<Dim> at) {
+    if (found) return;
+    found = !is_taken(at);
+    for (int d = 0; d < Dim && !found; ++d)
+      for (const int side : {-1, 1}) {
+        at[d] += side;
+        found = found || !is_taken(at);
+        at[d] -= side;
+      }
+  });
+  return found;
+}
 
 /// Of one rank. `cells`: its locations; `rank_of(location)`: who has a location of the lattice, or
 /// -1 where it is empty or beyond, asked for those and the ones around them; `period`: locations

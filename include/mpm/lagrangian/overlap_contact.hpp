@@ -1,6 +1,6 @@
 #pragma once
-/// Contact of a body with itself and with others in the plane, without friction: a penalty on the
-/// area on which surface cells lie upon each other.
+/// Contact of a body with itself and with others in the plane: a penalty on the area on which
+/// surface cells lie upon each other, and Coulomb's friction.
 
 #include <mpm/core/lane_vector.hpp>
 #include <mpm/core/lanes.hpp>
@@ -8,6 +8,7 @@
 #include <mpm/parallel/ghosts.hpp>
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace mpm {
@@ -47,6 +48,9 @@ class OverlapContact {
 
   // At the last call of `measure`, of this rank's cells.
   void add_forces(NodeFields<2>& fields) const;
+  /// To friction[node * 2 + axis], N. Every rank calls it. `coefficient`: Coulomb's.
+  void add_friction(const NodeFields<2>& fields, double coefficient, double dt,
+                    std::span<double> friction);
   double energy() const;           ///< J
   double overlapped_area() const;  ///< m^2; every overlap counts once on either cell, half each
   GlobalIndex touching() const { return touching_; }  ///< pairs, with others' halves
@@ -103,6 +107,8 @@ class OverlapContact {
               std::vector<Ghosts::Peer>& sides) const;
   void list_near();
   void find_overlaps();
+  void take_motion(const NodeFields<2>& fields);
+  static const std::array<std::size_t, 4>& corners_of_piece(int piece);
 
   /// One cell of this rank in a pair that touches.
   struct Touch {
@@ -142,6 +148,7 @@ class OverlapContact {
   std::vector<LocalIndex> second_side_;
   std::vector<Touch> touches_;  ///< of cell c from first_touch_[c] on
   std::vector<LocalIndex> first_touch_;
+  std::vector<double> motion_;   ///< of the cells' corners, with friction
   LaneVector<double> overlaps_;  ///< per lane_count pairs in near_: area and its 16 derivatives
   std::array<std::vector<double>, 2> places_then_;  ///< of nodes, m, when the pairs were found
   GlobalIndex touching_ = 0;

@@ -25,6 +25,7 @@ class TotalLagrangian final : public Formulation<2> {
     /// kappa: across a flush face the pressure of contact is 2 kappa C times the depth over the
     /// size of a location. 0: bodies go through each other.
     double contact_stiffness = 2;
+    double friction = 0;  ///< Coulomb's coefficient of contact
     /// Cells with a smaller least stretch are made heavier by the square of this over it, so that
     /// they do not shorten the step. 0: none.
     double mass_scaling = 0.8;
@@ -64,6 +65,7 @@ class TotalLagrangian final : public Formulation<2> {
   void add_masses();
   void add_forces(double dt);
   void gather_cell_forces();
+  void book_friction(double dt);
   void add_loads_on_particles();
   void look_for_pairs(double way);
   void scale_masses();
@@ -86,6 +88,8 @@ class TotalLagrangian final : public Formulation<2> {
   /// Per lane_count nodes and corner: where in cell_forces_ the x component stands.
   std::vector<std::int32_t> node_terms_;
   std::optional<OverlapContact> contact_;
+  std::vector<double> friction_;  ///< [nodes * 2], N; empty without
+  double friction_work_ = 0;      ///< J, of this rank's nodes since the start
 
   std::vector<double> first_masses_;  ///< kg, of the nodes
   Reaction<2> scaling_;               ///< of masses that come and go, this rank's nodes

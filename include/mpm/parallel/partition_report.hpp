@@ -14,16 +14,21 @@ struct PartitionReport {
   GlobalIndex bytes = 0;         ///< per exchange of mass, momentum and force, of the busiest
 };
 
-/// Looks at every rank in turn.
+/// Of a grid and stencils of so many nodes per axis. Looks at every rank in turn.
 template <int Dim>
 PartitionReport report_on(const Ownership<Dim>& ownership, int support,
                           const CellVisits<Dim>& particles);
 
-/// Reports on cuts and on blocks, before and after a change of the particles' places: with the
-/// borders left as they were, and moved. One line each, under a header.
+/// What a partition costs particles that are in these cells.
+template <int Dim>
+using Reporter =
+    std::function<PartitionReport(const Ownership<Dim>& ownership, const CellVisits<Dim>& cells)>;
+
+/// Reports on cuts and on blocks, before and, if any, after a change of the particles' places: with
+/// the borders left as they were, and moved. One line each, under a header.
 template <int Dim>
 std::string partition_table(const GridGeometry<Dim>& geometry, const std::vector<int>& ranks,
-                            const PartitionRules<Dim>& rules, int support,
+                            const PartitionRules<Dim>& rules, const Reporter<Dim>& report,
                             const CellVisits<Dim>& before, const CellVisits<Dim>& after);
 
 }  // namespace mpm

@@ -116,6 +116,7 @@ struct Numerics {
   /// Of total_lagrangian: across a flush face pressure is 2 of it times the modulus of the fastest
   /// wave times the depth over the size of a location; 0: none.
   double contact_stiffness = 2;
+  double friction = 0;          ///< of total_lagrangian: Coulomb's coefficient where cells meet
   double mass_scaling = 0.8;    ///< least stretch of cells that keep their mass
   Plane plane = Plane::strain;  ///< of a scene in the plane
   double thickness = 1;         ///< m, out of the plane

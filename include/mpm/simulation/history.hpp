@@ -30,6 +30,7 @@ struct HistoryLine {
   /// start): rounding, unless something is lost.
   double momentum_error = 0;
   double contact_energy = 0;                         ///< J
+  double friction_work = 0;                          ///< J, turned to heat in contact
   double overlapped_area = 0;                        ///< m^2
   GlobalIndex contact_pairs = 0;                     ///< of cells that touch
   double time_step = 0;                              ///< s

@@ -22,10 +22,11 @@ struct Sums {
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
   std::optional<typename Carried<Dim>::OfContact> contact{};
 
-  /// Work of the stresses, stored or dissipated, and what contact stores, J.
+  /// Work of the stresses, stored or dissipated, and what contact stores or turns to heat, J.
   double stress_work() const
   {
-    return elastic_energy + plastic_work + (contact ? contact->energy : 0.0);
+    return elastic_energy + plastic_work +
+           (contact ? contact->energy + contact->friction_work : 0.0);
   }
 };
 

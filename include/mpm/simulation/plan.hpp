@@ -4,9 +4,11 @@
 
 #include <mpm/grid/node_columns.hpp>
 #include <mpm/output/summary.hpp>
+#include <mpm/parallel/ownership.hpp>
 #include <mpm/simulation/layout.hpp>
 #include <mpm/stepping/step_outline.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,15 +33,16 @@ struct Plan {
     std::vector<ParticleColumn> columns;
     int bytes() const;  ///< of one particle
   };
-  /// Of the boxes of nodes that the ranks hold at the start. A box takes in all cells of its rank
-  /// and what stencils reach from them, whether there are particles or not: this is the bound for
-  /// nodes in empty regions. Only nodes from `below` to `above` a particle's cell, and those shared
-  /// between ranks with the ones next to them, are cleared, updated and looked at.
+  /// Of a grid: of the boxes of nodes that the ranks hold at the start. A box takes in all cells of
+  /// its rank and what stencils reach from them, whether there are particles or not: this is the
+  /// bound for nodes in empty regions. Only nodes from `below` to `above` a particle's cell, and
+  /// those shared between ranks with the ones next to them, are cleared, updated and looked at.
+  /// Of a mesh: there are those at corners of cells and no others.
   struct Nodes {
-    double in_grid;
-    double allocated;     ///< by all ranks
-    double largest_rank;  ///< by the rank with most
-    int below, above;
+    double in_grid;                     ///< or corners of the lattice
+    double allocated;                   ///< by all ranks
+    double largest_rank;                ///< by the rank with most
+    std::optional<StencilReach> reach;  ///< of a grid
     std::vector<NodeBytes> columns;
     int bytes() const;  ///< of one node
   };
@@ -51,10 +54,13 @@ struct Plan {
   std::vector<std::string> method;  ///< shape function, scheme, update order, plane or space
   std::vector<Particles> bodies;    ///< load cell last
   Nodes nodes;
+  double contact_cells = 0;             ///< cells that may meet others: those near a surface
+  double hinges = 0;                    ///< nodes at which cells hang together by a corner alone
   std::vector<PassOutline> passes;      ///< of a step, over the particles
   std::vector<std::string> conditions;  ///< what holds nodes
   std::vector<std::string> loads;
-  /// Sent in a step by the rank that sends most; without particles that go to another rank.
+  /// Sent in a step by the rank that sends most; without particles that go to another rank, and
+  /// without what cells in contact tell each other.
   double messages_per_step, bytes_per_step;
   std::vector<LeftOut> left_out;
   double time_step;  ///< s, the first

@@ -50,6 +50,7 @@ struct Carried {
     double energy = 0;           ///< J
     double overlapped_area = 0;  ///< m^2; in space volume, m^3
     GlobalIndex pairs = 0;       ///< of cells that touch; each counts for either cell
+    double friction_work = 0;    ///< J, turned to heat since the start
   };
   std::optional<OfContact> contact{};
 };
