@@ -169,18 +169,38 @@ void OverlapContact::measure(const MeshNodes<2>& nodes)
       touches_[std::size_t(next[std::size_t(pair.second)]++)] = {pair.first, LocalIndex(k),
                                                                  second_side_[k]};
   }
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const std::span<const Touch> touches(&touches_[std::size_t(first[c])],
-                                         std::size_t(first[c + 1] - first[c]));
-    for (const Touch& touch : touches) {
-      double together = 0;
-      for (const Touch& beside : touches)
-        if (&beside == &touch || are_of_one_wall(beside.other, touch.other))
-          together += areas_[std::size_t(beside.pair)];
-      sides_[std::size_t(touch.side)] = stiffness_[c] / area_ * together;
-    }
-  }
+  energy_ = 0;
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    answer_overlaps(c, {&touches_[std::size_t(first[c])], std::size_t(first[c + 1] - first[c])});
   side_ghosts_.update(sides_, 1);
+}
+
+/// dW/ds_d = S_c A0 (H(T_d) + sum over d and its neighbours e of s_e H'(T_e)).
+void OverlapContact::answer_overlaps(std::size_t cell, std::span<const Touch> touches)
+{
+  const auto share_of = [this](const Touch& touch) {
+    return OverlapShare(areas_[std::size_t(touch.pair)] / area_).value;
+  };
+  const auto add_beside = [&](const Touch& touch, double of_touch, const auto& value_of) {
+    double sum = of_touch;
+    for (const Touch& beside : touches)
+      if (&beside != &touch && are_of_one_wall(beside.other, touch.other)) sum += value_of(beside);
+    return sum;
+  };
+  parts_.clear();
+  for (const Touch& touch : touches) {
+    const double together = add_beside(touch, share_of(touch), share_of);
+    const OverlapPotential potential(together);
+    parts_.push_back({potential.part, share_of(touch) * potential.slope});
+    energy_ += stiffness_[cell] * area_ * share_of(touch) * parts_.back().own;
+  }
+  const auto change_of = [&](const Touch& touch) {
+    return parts_[std::size_t(&touch - touches.data())].change;
+  };
+  for (const Touch& touch : touches)
+    sides_[std::size_t(touch.side)] =
+        stiffness_[cell] * (parts_[std::size_t(&touch - touches.data())].own +
+                            add_beside(touch, change_of(touch), change_of));
 }
 
 /// Whether cells are so near in the lattice that what a third one presses them with adds up.
@@ -209,15 +229,6 @@ void OverlapContact::add_forces(NodeFields<2>& fields) const
     push_corners(turned_[number] ? second : first, one, values + lane_count);
     push_corners(turned_[number] ? first : second, other, values + 9 * lane_count);
   }
-}
-
-/// Half of it where the pair has its other side elsewhere.
-double OverlapContact::energy() const
-{
-  double energy = 0;
-  for (const Touch& touch : touches_)
-    energy += 0.5 * areas_[std::size_t(touch.pair)] * sides_[std::size_t(touch.side)];
-  return energy;
 }
 
 double OverlapContact::overlapped_area() const

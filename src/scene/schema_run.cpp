@@ -50,7 +50,8 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       member<N>("friction", &N::friction, {.bound = at_least(0)},
                 "Coulomb's coefficient where cells meet; large: what meets sticks")
           .when(of_cells),
-      member<N>("mass_scaling", &N::mass_scaling, {.bound = from_to(0, 1)},
+      member<N>("mass_scaling", &N::mass_scaling,
+                {.bound = from_to(0, 1), .default_text = "0.8 under a piston; 0 in free motion"},
                 "cells with a smaller least stretch are made heavier, by the square of this over "
                 "it, so that they do not shorten the step; 0: none")
           .when(of_cells),

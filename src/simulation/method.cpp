@@ -42,6 +42,13 @@ double default_cfl(const scene::Numerics& numerics)
          (is_total_lagrangian(numerics) ? share_in_contact : numerics.shape_function->cfl_share);
 }
 
+double mass_scaling_of(const scene::Scene& scene)
+{
+  constexpr double in_crushing = 0.8;
+  return scene.numerics.mass_scaling.value_or(
+      std::holds_alternative<scene::Loading>(scene.motion) ? in_crushing : 0.0);
+}
+
 double stress_moment_of(const scene::Numerics& numerics)
 {
   return is_total_lagrangian(numerics) ? 0.5 : numerics.update_order->stress_moment;

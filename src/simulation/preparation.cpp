@@ -43,6 +43,7 @@ scene::Scene Preparation<Dim>::effective_scene() const
 {
   scene::Scene effective = scene;
   effective.numerics.cfl = layout.cfl;
+  if (is_total_lagrangian(scene.numerics)) effective.numerics.mass_scaling = mass_scaling_of(scene);
   if (auto* loading = std::get_if<scene::Loading>(&effective.motion))
     loading->ramp_time = layout.piston.ramp_time;
   return effective;

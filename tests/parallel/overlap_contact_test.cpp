@@ -142,14 +142,14 @@ INSTANTIATE_TEST_SUITE_P(Sides, OverlapContacts, ::testing::Bool(),
 TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
 {
   constexpr int across = 10;
-  const double depth = 0.01 * size[1];
-  for (const double shift : {0.0, 0.1, 0.25, 0.5, 0.7}) {
+  for (const auto& [depth, shift] : std::to_array<std::pair<double, double>>(
+           {{0.001, 0.0}, {0.001, 0.5}, {0.03, 0.0}, {0.03, 0.1}, {0.03, 0.5}, {0.03, 0.7}})) {
     std::vector<OverlapContact::Cell> surface;
     std::vector<Vec<2>> places;
     for (int row = 0; row < 2; ++row)
       for (int c = 0; c < across; ++c) {
         const LocalIndex first = LocalIndex(places.size());
-        const Vec<2> lower((c + row * shift) * size[0], row * (size[1] - depth));
+        const Vec<2> lower((c + row * shift) * size[0], row * (1 - depth) * size[1]);
         for (const Vec<2>& corner : {Vec<2>(0, 0), Vec<2>(1, 0), Vec<2>(1, 1), Vec<2>(0, 1)})
           places.push_back(lower + corner.cwiseProduct(size));
         // Cells of a row are neighbours; the rows are not.
@@ -172,8 +172,19 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
       pushed += fields.force_of(4 * (across + across / 2) + k)[1];
       along += fields.force_of(4 * (across + across / 2) + k)[0];
     }
-    EXPECT_NEAR(pushed / (2 * stiffness * depth / size[1] * size[0]), 1, 1e-9) << shift;
-    EXPECT_NEAR(along / pushed, 0, 1e-9) << shift;
+    const OverlapShare one((1 - shift) * depth), other(shift * depth);
+    const OverlapPotential potential(one.value + other.value);
+    const double pressure = potential.pressure(one.value + other.value) *
+                            ((1 - shift) * one.slope + shift * other.slope);
+    EXPECT_NEAR(pushed / (2 * stiffness * size[0] * pressure), 1, 1e-9) << depth << " " << shift;
+    // What slides on to the next cell feels no more than a ridge as steep as it is deep.
+    EXPECT_LT(std::abs(along / pushed), depth) << shift;
+    // A cell more at a face is half the onset less.
+    const double beyond = depth - OverlapShare::onset;
+    if (beyond > 0) {
+      EXPECT_LE(pressure, OverlapPotential(depth).pressure(depth));
+      EXPECT_GE(pressure, 0.95 * OverlapPotential(beyond).pressure(beyond));
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <mpm/core/lane_vector.hpp>
 #include <mpm/core/lanes.hpp>
 #include <mpm/grid/mesh_nodes.hpp>
+#include <mpm/lagrangian/overlap_potential.hpp>
 #include <mpm/parallel/ghosts.hpp>
 
 #include <array>
@@ -13,13 +14,14 @@
 
 namespace mpm {
 
-/// The potential is the sum over the cells c near surfaces of S_c / (2 A0) sum_d A_cd P_cd: A_cd is
-/// the area on which cell d lies on c, which has no side in common with it, P_cd that area and
-/// those of d's neighbours on c, A0 the area of a cell at rest and S_c = kappa C times the
-/// thickness, C the modulus of the fastest wave. Across a flush face the pressure is 2 kappa C
-/// times the depth over the size of a cell, however the lattices of the two sides lie to each
-/// other; what presses a cell from elsewhere does not enter. No normals, no closest features: what
-/// the corners bear is the derivative.
+/// The potential is the sum over the cells c near surfaces of S_c A0 sum_d s_cd H(T_cd): s_cd is
+/// what the share of c counts as on which cell d lies, which has no side in common with it, T_cd
+/// that and those of d's neighbours on c, H what it stores (overlap_potential.hpp), A0 the area of
+/// a cell at rest and S_c = kappa C times the thickness, C the modulus of the fastest wave. Across
+/// a flush face the pressure is about 2 kappa C times the depth over the size of a cell as long as
+/// that is small, however the lattices of the two sides lie to each other; what presses a cell from
+/// elsewhere does not enter. No normals, no closest features: what the corners bear is the
+/// derivative.
 ///
 /// Each rank keeps the pairs of its own cells with others; of those on other ranks, and of
 /// images across periodic sides, it holds copies.
@@ -51,7 +53,7 @@ class OverlapContact {
   /// To friction[node * 2 + axis], N. Every rank calls it. `coefficient`: Coulomb's.
   void add_friction(const NodeFields<2>& fields, double coefficient, double dt,
                     std::span<double> friction);
-  double energy() const;           ///< J
+  double energy() const { return energy_; }  ///< J
   double overlapped_area() const;  ///< m^2; every overlap counts once on either cell, half each
   GlobalIndex touching() const { return touching_; }  ///< pairs, with others' halves
 
@@ -114,10 +116,16 @@ class OverlapContact {
   struct Touch {
     LocalIndex other, pair, side;  ///< side: where in sides_
   };
+  /// What a touch stores, and by how much its neighbours' answers grow with it.
+  struct Part {
+    double own, change;
+  };
+  void answer_overlaps(std::size_t cell, std::span<const Touch> touches);
   /// What presses in a pair, of both its sides, N/m.
   double pressure(std::size_t pair) const
   {
-    return sides_[pair] + sides_[std::size_t(second_side_[pair])];
+    return OverlapShare(areas_[pair] / area_).slope *
+           (sides_[pair] + sides_[std::size_t(second_side_[pair])]);
   }
 
   MPI_Comm comm_;
@@ -142,16 +150,18 @@ class OverlapContact {
   std::vector<char> turned_;
   std::vector<Near> near_;     ///< those whose boxes meet
   std::vector<double> areas_;  ///< of all pairs, m^2
-  /// Of every pair the first cell's S_c P_cd / A0, N/m, a zero, and the second cells' as
-  /// `second_side_` has them: other ranks' last.
+  /// Of every pair what its first cell answers with, the derivative of its energy by the overlap,
+  /// N/m, a zero, and the second cells' as `second_side_` has them: other ranks' last.
   std::vector<double> sides_;
   std::vector<LocalIndex> second_side_;
+  std::vector<Part> parts_;     ///< of the touches of one cell, for a moment
   std::vector<Touch> touches_;  ///< of cell c from first_touch_[c] on
   std::vector<LocalIndex> first_touch_;
   std::vector<double> motion_;   ///< of the cells' corners, with friction
   LaneVector<double> overlaps_;  ///< per lane_count pairs in near_: area and its 16 derivatives
   std::array<std::vector<double>, 2> places_then_;  ///< of nodes, m, when the pairs were found
   GlobalIndex touching_ = 0;
+  double energy_ = 0;  ///< J, of this rank's cells
 };
 
 }  // namespace mpm

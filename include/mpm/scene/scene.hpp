@@ -117,7 +117,9 @@ struct Numerics {
   /// wave times the depth over the size of a location; 0: none.
   double contact_stiffness = 2;
   double friction = 0;          ///< of total_lagrangian: Coulomb's coefficient where cells meet
-  double mass_scaling = 0.8;    ///< least stretch of cells that keep their mass
+  /// Of total_lagrangian: least stretch of cells that keep their mass. Default depends on what
+  /// moves the specimen.
+  std::optional<double> mass_scaling;
   Plane plane = Plane::strain;  ///< of a scene in the plane
   double thickness = 1;         ///< m, out of the plane
   OneOf<ShapeRow> shape_function = "gimp";

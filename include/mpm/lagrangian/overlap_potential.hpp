@@ -1,0 +1,40 @@
+#pragma once
+/// What an overlap of two cells counts as, and what all on one side of a cell store together.
+
+namespace mpm {
+
+/// Of the share of a cell that another one lies on: s = a^2 / (2 onset) up to the onset, a -
+/// onset/2 beyond. With a stiffness that sets in at once, every cell that begins to touch, and
+/// every one that slides on to the next, is a kick of the order of the step.
+struct OverlapShare {
+  static constexpr double onset = 0.005;
+
+  double value, slope;
+
+  explicit OverlapShare(double share)
+      : value(share < onset ? 0.5 * share * share / onset : share - 0.5 * onset),
+        slope(share < onset ? share / onset : 1.0)
+  {
+  }
+};
+
+/// Of the shares s_d on one side of a cell, T their sum: each stores s_d H(T) of kappa C and the
+/// area of a cell, so that the pressure on a flush face is G' = T + T^3 / b^2, with G = T H. It
+/// hardens, so that the dense state does not lose its volume to overlaps: 1 % of the volume is 3 %
+/// of the pressure there.
+struct OverlapPotential {
+  static constexpr double hardening = 0.03;  ///< b
+
+  double part;   ///< H = T / 2 + T^3 / (4 b^2)
+  double slope;  ///< H'
+
+  explicit OverlapPotential(double together)
+  {
+    const double hard = together * together / (hardening * hardening);
+    part = together * (0.5 + 0.25 * hard);
+    slope = 0.5 + 0.75 * hard;
+  }
+  double pressure(double together) const { return part + together * slope; }
+};
+
+}  // namespace mpm
