@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "checks.hpp"
 #include <fmt/format.h>
 
@@ -42,11 +44,33 @@ void check_moving_sides(const Checked& checked, const FreeMotion& motion)
   }
 }
 
+/// What walls that push particles need of the method, and what is there for them only.
+void check_pushing_walls(const Checked& checked)
+{
+  const Numerics& numerics = checked.scene.numerics;
+  const std::string key = "numerics.contact_stiffness";
+  if (numerics.formulation == FormulationKind::total_lagrangian || !checked.sound(key)) return;
+  if (!walls_push(checked.scene))
+    checked.refuse(key, "nothing is in contact",
+                   "Leave it out, or use grip: contact or formulation: total_lagrangian");
+  else if (numerics.contact_stiffness == 0)
+    checked.refuse(key, "walls with grip: contact would hold nothing back", "Leave it out");
+}
+
 }  // namespace
+
+bool walls_push(const Scene& scene)
+{
+  if (const auto* loading = std::get_if<Loading>(&scene.motion))
+    return loading->grip == Grip::contact;
+  return std::ranges::any_of(std::get<FreeMotion>(scene.motion).moving_sides,
+                             [](const MovingSide& side) { return side.grip == Grip::contact; });
+}
 
 void check_sides(const Checked& checked)
 {
   const int dimensions = checked.scene.dimensions;
+  check_pushing_walls(checked);
   if (const auto* loading = std::get_if<Loading>(&checked.scene.motion)) {
     if (axis_of(loading->piston) >= dimensions)
       checked.refuse("loading.piston", "the scene lies in the plane",

@@ -37,10 +37,9 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 "weights in the present configuration, on a grid that forgets; or in the reference "
                 "one, on cells that are locations, with contact of the body with itself"),
       member<N>("contact_stiffness", &N::contact_stiffness, {.bound = from_to(0, 100)},
-                "twice this times the modulus of the fastest wave times the depth over the size of "
-                "a location is the pressure across a flush contact; 0: no contact")
-          .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
-                 "formulation: total_lagrangian"}),
+                "times the modulus of the fastest wave times the depth over the size of a location "
+                "is the pressure of a wall with grip: contact, and half of that across a flush "
+                "contact of total_lagrangian; 0 there: no contact"),
       member<N>("mass_scaling", &N::mass_scaling, {.bound = from_to(0, 1)},
                 "cells with a smaller least stretch are made heavier, by the square of this over "
                 "it, so that they do not shorten the step; 0: none")

@@ -140,7 +140,7 @@ HistoryKind History<Dim>::kind() const
 template <int Dim>
 void History<Dim>::before_line()
 {
-  stress_work_before_ = sum_over_bodies(formulation_).stress_work();
+  work_ahead_before_ = work_ahead(sum_over_bodies(formulation_));
 }
 
 template <int Dim>
@@ -217,16 +217,26 @@ double History<Dim>::surplus(const Sums<Dim>& sums) const
          start_.stress_work();
 }
 
+/// What is stored or dissipated, weighted with how far it is ahead of the velocities, in steps, J.
+template <int Dim>
+double History<Dim>::work_ahead(const Sums<Dim>& sums) const
+{
+  constexpr double places = 0.5;
+  return formulation_.stress_moment() * (sums.elastic_energy + sums.plastic_work) +
+         (sums.contact ? places * sums.contact->energy : 0.0);
+}
+
 template <int Dim>
 void History<Dim>::balance(HistoryLine& line, const Sums<Dim>& sums)
 {
   // Velocities, and with them kinetic energy and external work, stand half a step before the
   // stresses that the step leaves, with USF half a step after them (leap-frog): the work of the
-  // stresses is taken there, or the balance would be off by half a step's work.
-  const double stress_work = sums.stress_work();
-  const double last_step = stress_work - stress_work_before_.value_or(stress_work);
-  stress_work_before_.reset();
-  const double surplus = this->surplus(sums) - formulation_.stress_moment() * last_step;
+  // stresses is taken there, or the balance would be off by half a step's work. What contact stores
+  // goes with the places, half a step after the velocities in every order.
+  const double ahead = work_ahead(sums);
+  const double last_step = ahead - work_ahead_before_.value_or(ahead);
+  work_ahead_before_.reset();
+  const double surplus = this->surplus(sums) - last_step;
   const double scale = std::max(std::abs(line.external_work), start_.kinetic_energy);
   line.energy_error = scale > 0 ? surplus / scale : 0;
   energy_.check(formulation_, surplus, work_size_ + start_.kinetic_energy);
@@ -317,12 +327,12 @@ void History<Dim>::archive(Archive& archive)
   archive.value("load_cell_mass_stress", load_cell_.mass_stress);
   archive.value("load_cell_mass", load_cell_.mass);
   archive.value("deepest_behind_piston", deepest_behind_piston_);
-  int line_is_due = stress_work_before_.has_value();
+  int line_is_due = work_ahead_before_.has_value();
   archive.value("line_is_due", line_is_due);
-  double stress_work = stress_work_before_.value_or(0);
-  archive.value("stress_work_before", stress_work);
-  stress_work_before_.reset();
-  if (line_is_due != 0) stress_work_before_ = stress_work;
+  double ahead = work_ahead_before_.value_or(0);
+  archive.value("work_ahead_before", ahead);
+  work_ahead_before_.reset();
+  if (line_is_due != 0) work_ahead_before_ = ahead;
   archive_lines(archive, lines_);
   const Archive::Section section(archive, "start");
   archive.value("particles", start_.particles);

@@ -32,14 +32,15 @@ double margin_of(const scene::Scene& scene, int axis, bool upper, double size)
   return open && margin == 0 ? free_margin * size : margin;
 }
 
-/// Whether a wall at rest stands at a side of the specimen, or behind its load cell.
+/// Whether a wall at rest holds nodes at a side of the specimen, or behind its load cell.
 bool has_wall(const scene::Scene& scene, int axis, bool upper)
 {
   if (const auto* free = std::get_if<scene::FreeMotion>(&scene.motion))
     for (const scene::MovingSide& moving : free->moving_sides)
       if (axis_of(moving.side) == axis && upper_of(moving.side) == upper) return false;
   if (const auto side = side_of(scene, axis, upper)) return (*side)->is_wall();
-  return upper_of(loading_of(scene)->piston) != upper;  // the edge is fixed
+  const scene::Loading& loading = *loading_of(scene);  // the edge is fixed, and holds or pushes
+  return upper_of(loading.piston) != upper && loading.grip != scene::Grip::contact;
 }
 
 /// `first` and `last`: nodes of the specimen's sides.

@@ -15,6 +15,7 @@ void Step<Dim>::update_velocity(double dt)
       condition->constrain_updated(grid(), field, time(), dt);
     slots.loads.book(grid(), grid().runs(), field, dt);
   }
+  for (const auto& condition : slots.conditions) condition->book_push(time(), dt);
   if (extras.refinements > 0) refine_velocity(dt);
 }
 
@@ -73,6 +74,7 @@ template <int Dim>
 void Step<Dim>::reset()
 {
   for (NodeFields<Dim>& field : fields) field.reset(grid().runs());
+  for (const auto& condition : slots.conditions) condition->reset_push();
 }
 
 template <int Dim>

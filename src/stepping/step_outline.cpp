@@ -74,7 +74,7 @@ class Notes {
   };
   NoNodes grid() const { return {}; }
   Nothing fields_of(Nothing) const { return {}; }
-  Nothing with_loads(Nothing, double, Nothing) const { return {}; }
+  Nothing with_forces(Nothing, double, Nothing) const { return {}; }
   void update_velocity(double)
   {
     for (int k = 0; k < extras_.refinements; ++k) {

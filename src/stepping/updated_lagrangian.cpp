@@ -30,7 +30,7 @@ void UpdatedLagrangian<Dim>::connect(Decomposition<Dim> decomposition)
   const bool with_force = setup_.order->begins_with_force;
   for (Body<Dim>& body : setup_.bodies) {
     step.transfer.prime(body, grid(), step.fields_of(body), with_force);
-    step.with_loads(body, 0, {});
+    step.with_forces(body, 0, {});
   }
   using Fields = NodeFields<Dim>;
   exchange_->halo().sum(step.sums({&Fields::mass_column, with_force ? &Fields::momentum_force_column
@@ -108,6 +108,11 @@ Carried<Dim> UpdatedLagrangian<Dim>::carried() const
     }
     carried.kinetic_energy += stdx::reduce(kinetic);
     for (int d = 0; d < Dim; ++d) carried.momentum[d] += stdx::reduce(momentum[d]);
+  }
+  for (const auto& condition : setup_.slots.conditions) {
+    if (!condition->pushes()) continue;
+    if (!carried.contact) carried.contact = ContactSums{};
+    for (const Body<Dim>& body : bodies()) *carried.contact += condition->stored(body, time_);
   }
   return carried;
 }

@@ -113,8 +113,9 @@ enum class FormulationKind { updated_lagrangian, total_lagrangian };
 
 struct Numerics {
   FormulationKind formulation = FormulationKind::updated_lagrangian;
-  /// Of total_lagrangian: across a flush face pressure is 2 of it times the modulus of the fastest
-  /// wave times the depth over the size of a location; 0: none.
+  /// Over the modulus of the fastest wave times the depth over the size of a location, of the
+  /// pressure of a wall that pushes, and of half of that across a flush face in total_lagrangian,
+  /// where 0 is none.
   double contact_stiffness = 2;
   double mass_scaling = 0.8;    ///< least stretch of cells that keep their mass
   Plane plane = Plane::strain;  ///< of a scene in the plane
@@ -235,5 +236,8 @@ struct Scene {
   Output output;
   bool operator==(const Scene&) const = default;
 };
+
+/// Whether a wall pushes what comes to its face, and holds nothing.
+bool walls_push(const Scene& scene);
 
 }  // namespace mpm::scene

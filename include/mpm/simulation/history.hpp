@@ -31,7 +31,7 @@ struct HistoryLine {
   double momentum_error = 0;
   double contact_energy = 0;                         ///< J
   double overlapped_area = 0;                        ///< m^2
-  GlobalIndex contact_pairs = 0;                     ///< of cells that touch
+  GlobalIndex contact_pairs = 0;                     ///< of cells, or particle and wall
   double time_step = 0;                              ///< s
   GlobalIndex behind_piston = 0, outside_walls = 0;  ///< particles
 
@@ -79,6 +79,7 @@ class History {
   void take_reactions();
   void begin_line(HistoryLine& line);
   double surplus(const Sums<Dim>& sums) const;
+  double work_ahead(const Sums<Dim>& sums) const;
   void balance(HistoryLine& line, const Sums<Dim>& sums);
   void check(const Sums<Dim>& sums, const HistoryLine& line) const;
   void count_outside(HistoryLine& line);
@@ -88,7 +89,7 @@ class History {
   std::optional<Apparatus<Dim>> apparatus_;
   std::vector<HistoryLine> lines_;
   Sums<Dim> start_;
-  std::optional<double> stress_work_before_;  ///< J, before the last step
+  std::optional<double> work_ahead_before_;  ///< J, before the last step
   double external_work_ = 0;
   Vec<Dim> impulse_ = Vec<Dim>::Zero();  ///< N s, from outside
   double impulse_size_ = 0;              ///< N s, sum of the sizes

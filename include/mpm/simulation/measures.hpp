@@ -20,7 +20,7 @@ struct Sums {
   double elastic_energy = 0;             ///< J
   double plastic_work = 0;               ///< J
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
-  std::optional<typename Carried<Dim>::OfContact> contact{};
+  std::optional<ContactSums> contact{};
 
   /// Work of the stresses, stored or dissipated, and what contact stores, J.
   double stress_work() const

@@ -45,13 +45,9 @@ struct Carried {
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
   double elastic_energy = 0;             ///< J, beside that of the particles' laws
   double added_mass = 0;                 ///< kg, by which cells were made heavier for longer steps
-  /// Of the contact of bodies with themselves and others, where there is one.
-  struct OfContact {
-    double energy = 0;           ///< J
-    double overlapped_area = 0;  ///< m^2; in space volume, m^3
-    GlobalIndex pairs = 0;       ///< of cells that touch; each counts for either cell
-  };
-  std::optional<OfContact> contact{};
+  /// Of the contact of bodies with themselves and others, and with walls that push, where there is
+  /// one.
+  std::optional<ContactSums> contact{};
 };
 
 /// Steps bodies of particles on this rank. All members but the plain look-ups are collective.

@@ -44,7 +44,7 @@ struct Step {
   /// F-bar, once the gradient velocities stand: the mean of their divergence around every node,
   /// over the particles by mass, is what particles take in the stress update in place of their own.
   void average_divergence();
-  /// Every field's sums become zero.
+  /// Every field's sums, and what conditions push with, become zero.
   void reset();
 
   /// One of the columns of every field.
@@ -52,10 +52,10 @@ struct Step {
   std::vector<NodeColumn> columns(std::initializer_list<ColumnOf> which) const;
   /// Mass and momentum, and the load force that particles will bring.
   std::vector<NodeColumn> sums(std::initializer_list<ColumnOf> which) const;
-  /// Once a part has moved: P2G of the loads on its particles, for the next step.
-  PassOutcome<Dim> with_loads(const BodyPart<Dim>& part, double dt, PassOutcome<Dim> moved) const
+  /// Once a part has moved: P2G of the loads and pushes on its particles, for the next step.
+  PassOutcome<Dim> with_forces(const BodyPart<Dim>& part, double dt, PassOutcome<Dim> moved) const
   {
-    slots.loads.scatter(part, transfer, grid(), fields_of(part), time() + dt);
+    slots.scatter(part, transfer, grid(), fields_of(part), time() + dt);
     return moved;
   }
 

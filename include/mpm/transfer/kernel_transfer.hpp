@@ -43,16 +43,17 @@ class KernelTransfer final : public Transfer<Dim> {
           part, grid, fields, 0, nullptr);
   }
 
-  void load_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid, NodeFields<Dim>& fields,
-                  const typename Transfer<Dim>::BlockForce& force) const override
+  void outside_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                     const NodeColumn& column,
+                     const typename Transfer<Dim>::BlockForce& force) const override
   {
     const GridFrame<Dim> frame(grid, !part.interior);
     for (LocalIndex b = part.first; b < part.end; ++b) {
       Lanes f[Dim];
       for (Lanes& component : f) component = 0.0;
-      force(b, f);
-      scatter_force(kernel_.stencil_of(part.body.particles.motion().block(b), frame), grid, f,
-                    fields.load_force.data());
+      if (force(b, f))
+        scatter_force(kernel_.stencil_of(part.body.particles.motion().block(b), frame), grid, f,
+                      column);
     }
   }
 

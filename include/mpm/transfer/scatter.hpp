@@ -241,10 +241,10 @@ class Scatter {
   MassRow mass_[rows];
 };
 
-/// Adds w f to the nodes, one after the other: loads are few.
+/// Adds w f to a column of the nodes, one after the other: loads are few.
 template <int Dim, class Shape>
 void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& grid,
-                   const Lanes (&force)[Dim], double* nodes)
+                   const Lanes (&force)[Dim], const NodeColumn& column)
 {
   constexpr int n = Shape::support, layers = Dim == 3 ? n : 1;
   for (int lane = 0; lane < lane_count; ++lane)
@@ -257,18 +257,19 @@ void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& 
             node += c * std::size_t(grid.stride(2));
             w *= stencil.weight[2][c][lane];
           }
-          for (int d = 0; d < Dim; ++d) nodes[node * Dim + d] += w * force[d][lane];
+          for (int d = 0; d < Dim; ++d)
+            column.values[node * column.stride + d] += w * force[d][lane];
         }
 }
 template <int Dim, CarriesDomain Shape>
 void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& grid,
-                   const Lanes (&force)[Dim], double* nodes)
+                   const Lanes (&force)[Dim], const NodeColumn& column)
 {
   for (int lane = 0; lane < lane_count; ++lane)
     for_each_node<Dim, Shape>(grid, [&](int k, std::size_t from_first) {
       const std::size_t node = std::size_t(stencil.base[lane]) + from_first;
       for (int d = 0; d < Dim; ++d)
-        nodes[node * Dim + d] += stencil.weight[k][lane] * force[d][lane];
+        column.values[node * column.stride + d] += stencil.weight[k][lane] * force[d][lane];
     });
 }
 

@@ -98,10 +98,11 @@ class Transfer {
   virtual void prime(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                      NodeFields<Dim>& fields, bool with_force) const = 0;
 
-  /// P2G of forces from outside (N), block by block, to the fields' load force.
-  using BlockForce = std::function<void(LocalIndex block, Lanes (&force)[Dim])>;
-  virtual void load_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
-                          NodeFields<Dim>& fields, const BlockForce& force) const = 0;
+  /// P2G of forces from outside (N), block by block, to a column; `force` says whether there is
+  /// any.
+  using BlockForce = std::function<bool(LocalIndex block, Lanes (&force)[Dim])>;
+  virtual void outside_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                             const NodeColumn& column, const BlockForce& force) const = 0;
 
   /// G2P of the residual velocity (NodeFields::refine), and its momentum back to the same nodes.
   /// No state changes.
