@@ -19,6 +19,7 @@ std::vector<NodeBytes> node_columns(const typename NodeFields<Dim>::Needs& needs
   add("remapped_momentum", &Fields::remapped_momentum);
   add("load_force", &Fields::load_force);
   add("gradient_velocity", &Fields::gradient_velocity);
+  add("surface", &Fields::surface);
 
   GridGeometry<Dim> geometry;
   geometry.nodes = IndexVec<Dim>::Constant(1);

@@ -1,3 +1,5 @@
+#include <mpm/transfer/musl_displacement.hpp>
+
 #include <algorithm>
 
 #include "checks.hpp"
@@ -44,17 +46,29 @@ void check_moving_sides(const Checked& checked, const FreeMotion& motion)
   }
 }
 
-/// What walls that push particles need of the method, and what is there for them only.
+/// What walls that push particles need of the method.
 void check_pushing_walls(const Checked& checked)
 {
   const Numerics& numerics = checked.scene.numerics;
-  const std::string key = "numerics.contact_stiffness";
-  if (numerics.formulation == FormulationKind::total_lagrangian || !checked.sound(key)) return;
+  const std::string stiffness = "numerics.contact_stiffness", order = "numerics.update_order";
+  if (numerics.formulation == FormulationKind::total_lagrangian) return;
   if (!walls_push(checked.scene))
-    checked.refuse(key, "nothing is in contact",
-                   "Leave it out, or use grip: contact or formulation: total_lagrangian");
-  else if (numerics.contact_stiffness == 0)
-    checked.refuse(key, "walls with grip: contact would hold nothing back", "Leave it out");
+    return checked.refuse(stiffness, "nothing is in contact",
+                          "Leave it out, or use grip: contact or formulation: total_lagrangian");
+  if (numerics.contact_stiffness == 0)
+    checked.refuse(stiffness, "walls with grip: contact would hold nothing back", "Leave it out");
+  if (numerics.scheme->refines)
+    checked.refuse("numerics.scheme", "a wall with grip: contact does not know refined velocities",
+                   "Use scheme: flip");
+  // Else work is done on the wall that no strain has stored, and ringing grows at any step.
+  if (numerics.update_order->keyword == MuslDisplacement::row.keyword) return;
+  const std::string reason =
+      "what a wall with grip: contact pushes must move by the velocities that its strain sees";
+  const std::string remedy = fmt::format("update_order: {}", MuslDisplacement::row.keyword);
+  if (checked.given(order))
+    checked.refuse(order, reason, "Use " + remedy);
+  else
+    checked.miss(order, reason, "Add " + remedy);
 }
 
 }  // namespace
@@ -65,6 +79,12 @@ bool walls_push(const Scene& scene)
     return loading->grip == Grip::contact;
   return std::ranges::any_of(std::get<FreeMotion>(scene.motion).moving_sides,
                              [](const MovingSide& side) { return side.grip == Grip::contact; });
+}
+
+double contact_stiffness(const Numerics& numerics)
+{
+  const bool of_bodies = numerics.formulation == FormulationKind::total_lagrangian;
+  return numerics.contact_stiffness.value_or(of_bodies ? 2.0 : 0.5);
 }
 
 void check_sides(const Checked& checked)

@@ -17,7 +17,7 @@ std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
           decomposition,
           TotalLagrangian::Setup{std::move(model.bodies), std::move(model.slots),
                                  layout.location_size, scene.numerics.thickness,
-                                 scene.numerics.contact_stiffness, scene.numerics.mass_scaling});
+                                 contact_stiffness(scene.numerics), scene.numerics.mass_scaling});
   typename UpdatedLagrangian<Dim>::Setup setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
   setup.order = scene.numerics.update_order;

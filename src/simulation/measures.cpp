@@ -11,14 +11,15 @@ Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation)
 {
   const Carried<Dim> carried = formulation.carried();
   std::array<GlobalIndex, 3> counts{0, 0, carried.contact ? carried.contact->pairs : 0};
-  std::array<double, 6 + Dim> sums{};
+  std::array<double, 7 + Dim> sums{};
   sums[1] = carried.kinetic_energy;
   sums[2] = carried.elastic_energy;
   if (carried.contact) {
     sums[4] = carried.contact->energy;
     sums[5] = carried.contact->overlapped_area;
+    sums[6] = carried.contact->friction_work;
   }
-  for (int d = 0; d < Dim; ++d) sums[6 + d] = carried.momentum[d];
+  for (int d = 0; d < Dim; ++d) sums[7 + d] = carried.momentum[d];
   for (const Body<Dim>& body : formulation.bodies()) {
     const ParticleStore& particles = body.particles;
     counts[0] += particles.size();
@@ -40,8 +41,8 @@ Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation)
   sum_over_ranks(comm, counts);
   sum_over_ranks(comm, sums);
   Sums<Dim> result{counts[0], counts[1], sums[0], sums[1], sums[2], sums[3]};
-  for (int d = 0; d < Dim; ++d) result.momentum[d] = sums[6 + d];
-  if (carried.contact) result.contact = {sums[4], sums[5], counts[2]};
+  for (int d = 0; d < Dim; ++d) result.momentum[d] = sums[7 + d];
+  if (carried.contact) result.contact = {sums[4], sums[5], counts[2], sums[6]};
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include <mpm/core/error.hpp>
 #include <mpm/lagrangian/location_cells.hpp>
 #include <mpm/parallel/session.hpp>
+#include <mpm/simulation/body_contacts.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
 #include <mpm/simulation/surface_marks.hpp>
@@ -158,7 +159,7 @@ WallGrip grip_of(scene::Grip grip)
 template <int Dim>
 WallStiffness<Dim> wall_stiffness(const scene::Scene& scene, const Layout<Dim>& layout)
 {
-  return {scene.numerics.contact_stiffness, layout.location_size};
+  return {contact_stiffness(scene.numerics), layout.location_size};
 }
 
 template <int Dim>
@@ -308,6 +309,7 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
     });
     model.bodies.back().particles.seal();
   }
+  add_contact(scene, layout, model);
   if (std::holds_alternative<scene::Loading>(scene.motion))
     add_apparatus(scene, specimen, layout, model);
   add_sides(scene, specimen, layout, model);

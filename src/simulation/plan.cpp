@@ -1,5 +1,6 @@
 #include <mpm/parallel/session.hpp>
 #include <mpm/parallel/shared_nodes.hpp>
+#include <mpm/simulation/body_contacts.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
 #include <mpm/simulation/plan.hpp>
@@ -58,8 +59,9 @@ Plan::Nodes nodes_of(const Preparation<Dim>& preparation, int support)
   const Ownership<Dim>& ownership = preparation.partition.ownership;
   const StencilReach reach(support);
   const scene::Numerics& numerics = preparation.scene.numerics;
-  const auto needs = node_needs<Dim>(*numerics.update_order, extras_of(numerics),
-                                     loads_of<Dim>(preparation.scene));
+  const auto needs =
+      node_needs<Dim>(*numerics.update_order, extras_of(numerics), loads_of<Dim>(preparation.scene),
+                      !preparation.scene.contacts.empty());
   Plan::Nodes nodes{.in_grid = ownership.geometry().nodes.template cast<double>().prod(),
                     .allocated = 0,
                     .largest_rank = 0,
@@ -72,6 +74,13 @@ Plan::Nodes nodes_of(const Preparation<Dim>& preparation, int support)
     nodes.largest_rank = std::max(nodes.largest_rank, box);
   }
   return nodes;
+}
+
+int velocity_fields(const scene::Scene& scene, const Plan& plan)
+{
+  std::vector<std::string> names;
+  for (const Plan::Particles& body : plan.bodies) names.push_back(body.body);
+  return std::ranges::max(fields_of_bodies(scene, names)) + 1;
 }
 
 /// "left: piston", ... in the order in which the model has them.
@@ -162,7 +171,11 @@ Plan make_plan(const Preparation<Dim>& preparation)
   plan.bodies = bodies_of(preparation, preparation.layout.per_cell);
   plan.nodes = nodes_of(preparation, transfer->support());
   plan.passes = outline_step<Dim>(numerics.update_order, extras_of(numerics),
-                                  loads_of<Dim>(scene).act_on_particles());
+                                  loads_of<Dim>(scene).act_on_particles(), !scene.contacts.empty());
+  const int fields = velocity_fields(scene, plan);
+  for (PassOutline& pass : plan.passes) pass.values_per_node *= fields;
+  for (NodeBytes& column : plan.nodes.columns)
+    if (column.name != "marks") column.bytes *= fields;
   plan.conditions = conditions_of(preparation);
   for (const scene::Load& load : scene.loads)
     plan.loads.push_back(load.kind->keyword + ": " + load.kind->help);

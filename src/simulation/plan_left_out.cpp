@@ -68,6 +68,7 @@ std::vector<Plan::LeftOut> left_out(const Preparation<Dim>& preparation, const P
          fmt::format("not of scheme {}", numerics.scheme->keyword));
   add_if(!extras.f_bar, "means of the divergence", "numerics.f_bar is false");
   add_if(plan.loads.empty(), "loads and their forces", "the scene names none");
+  add_if(scene.contacts.empty(), "contact between bodies", "the scene names none");
   add_if(loading && plan.conditions.size() == 2, "walls beside the travel", "no side is one");
   add_if(!loading && plan.conditions.empty(), "walls", "no side is one");
   add_if(!any_periodic(scene, Dim), "periodic images", "no side is periodic");

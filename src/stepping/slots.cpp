@@ -6,6 +6,13 @@
 namespace mpm {
 
 template <int Dim>
+bool Slots<Dim>::need_surfaces() const
+{
+  return std::ranges::any_of(contacts,
+                             [](const auto& contact) { return contact->needs_surfaces(); });
+}
+
+template <int Dim>
 void Slots<Dim>::scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfer,
                          const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time) const
 {

@@ -18,7 +18,8 @@ template <int Dim>
 void UpdatedLagrangian<Dim>::connect(Decomposition<Dim> decomposition)
 {
   exchange_ = std::make_unique<Exchange<Dim>>(std::move(decomposition), *setup_.transfer);
-  const auto needs = node_needs(*setup_.order, setup_.extras, setup_.slots.loads);
+  const auto needs =
+      node_needs(*setup_.order, setup_.extras, setup_.slots.loads, setup_.slots.need_surfaces());
   int fields = 1;
   for (const Body<Dim>& body : setup_.bodies) fields = std::max(fields, body.field + 1);
   fields_.clear();
@@ -109,11 +110,15 @@ Carried<Dim> UpdatedLagrangian<Dim>::carried() const
     carried.kinetic_energy += stdx::reduce(kinetic);
     for (int d = 0; d < Dim; ++d) carried.momentum[d] += stdx::reduce(momentum[d]);
   }
-  for (const auto& condition : setup_.slots.conditions) {
-    if (!condition->pushes()) continue;
+  const auto add = [&](const ContactSums& sums) {
     if (!carried.contact) carried.contact = ContactSums{};
-    for (const Body<Dim>& body : bodies()) *carried.contact += condition->stored(body, time_);
-  }
+    *carried.contact += sums;
+  };
+  for (const auto& contact : setup_.slots.contacts)
+    if (const auto sums = contact->sums()) add(*sums);
+  for (const auto& condition : setup_.slots.conditions)
+    if (condition->pushes())
+      for (const Body<Dim>& body : bodies()) add(condition->stored(body, time_));
   return carried;
 }
 

@@ -13,13 +13,16 @@ namespace mpm {
 struct ContactSums {
   double energy = 0;           ///< J
   double overlapped_area = 0;  ///< m^2; in space volume, m^3
-  GlobalIndex pairs = 0;  ///< of cells that touch, each counts for either; of particle and wall
+  /// Of cells that touch, each counts for either; of particle and wall; of bodies at a node.
+  GlobalIndex pairs = 0;
+  double friction_work = 0;  ///< J, lost since the start
 
   ContactSums& operator+=(const ContactSums& other)
   {
     energy += other.energy;
     overlapped_area += other.overlapped_area;
     pairs += other.pairs;
+    friction_work += other.friction_work;
     return *this;
   }
 };

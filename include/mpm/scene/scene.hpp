@@ -116,7 +116,7 @@ struct Numerics {
   /// Over the modulus of the fastest wave times the depth over the size of a location, of the
   /// pressure of a wall that pushes, and of half of that across a flush face in total_lagrangian,
   /// where 0 is none.
-  double contact_stiffness = 2;
+  std::optional<double> contact_stiffness;
   double mass_scaling = 0.8;    ///< least stretch of cells that keep their mass
   Plane plane = Plane::strain;  ///< of a scene in the plane
   double thickness = 1;         ///< m, out of the plane
@@ -185,6 +185,13 @@ struct Load {
   bool operator==(const Load&) const = default;
 };
 
+/// Between two bodies, each in a velocity field of its own.
+struct BodyContact {
+  std::vector<std::string> between;  ///< two materials
+  double friction = 0;               ///< tangential over normal force, at most
+  bool operator==(const BodyContact&) const = default;
+};
+
 // ---------------------------------------------------------------------------- output
 
 enum class Field {
@@ -230,6 +237,7 @@ struct Scene {
   Numerics numerics;
   std::variant<Loading, FreeMotion> motion;
   std::vector<Load> loads;
+  std::vector<BodyContact> contacts;  ///< without any, all bodies move in one velocity field
   Definitions definitions;
   std::optional<ExactSolution> exact_solution;
   std::optional<long> steps;  ///< end after this many steps (benchmarks)
@@ -239,5 +247,7 @@ struct Scene {
 
 /// Whether a wall pushes what comes to its face, and holds nothing.
 bool walls_push(const Scene& scene);
+/// That is given, or the default of the formulation.
+double contact_stiffness(const Numerics& numerics);
 
 }  // namespace mpm::scene

@@ -29,6 +29,7 @@ struct Step {
   Slots<Dim>& slots;
   const StepExtras& extras;
   Moment moment;
+  bool surfaces_found = false;  ///< in this step
 
   const GridTopology<Dim>& grid() const { return exchange.topology(); }
   NodeFields<Dim>& fields_of(const BodyPart<Dim>& part) const { return fields[part.body.field]; }
@@ -61,6 +62,8 @@ struct Step {
 
  private:
   void refine_velocity(double dt);
+  /// Once, at the places where the step begins: what contact needs to know of the surfaces.
+  void find_surfaces();
   /// A pass that adds to the re-mapped momentum, from zero.
   using RemapPass = PassOutcome<Dim> (Transfer<Dim>::*)(const BodyPart<Dim>&,
                                                         const GridTopology<Dim>&,
