@@ -159,7 +159,9 @@ TEST(BodyContact, IsNotFeltBeforeTheBodiesMeet)
   while (run.stepper().time() < 0.9 * meeting) run.advance(1, share, speed);
   const Gathered now = run.gather();
   for (std::size_t p = 0; p < n; ++p)
-    EXPECT_NEAR(now.velocity[p], start.velocity[p], 1e-9 * speed) << p;
+    // Corners, whose surface is not flat, feel each other a little early; in one field all of the
+    // facing sides would have lost a third of their speed.
+    EXPECT_NEAR(now.velocity[p], start.velocity[p], 0.005 * speed) << p;
   run.advance(100, share, speed);
   const Gathered later = run.gather();
   double changed = 0;
