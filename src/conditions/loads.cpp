@@ -31,9 +31,11 @@ void Loads<Dim>::scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfe
                          const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time) const
 {
   if (!on_particles_) return;
-  transfer.load_force(part, grid, fields, [&](LocalIndex block, Lanes(&force)[Dim]) {
-    add_to_particles(part.body, block, time, force);
-  });
+  transfer.outside_force(part, grid, fields.load_force_column(),
+                         [&](LocalIndex block, Lanes(&force)[Dim]) {
+                           add_to_particles(part.body, block, time, force);
+                           return true;
+                         });
 }
 
 template <int Dim>

@@ -7,8 +7,12 @@ namespace mpm {
 
 template <int Dim>
 RigidWall<Dim>::RigidWall(const WallPlacement& placement, const WallMotion& motion, WallGrip grip,
-                          ReactionBook book)
-    : BoundaryCondition<Dim>(book), placement_(placement), motion_(motion), grip_(grip)
+                          ReactionBook book, const WallStiffness<Dim>& stiffness)
+    : BoundaryCondition<Dim>(book),
+      placement_(placement),
+      motion_(motion),
+      grip_(grip),
+      stiffness_(stiffness)
 {
 }
 
@@ -36,6 +40,7 @@ template <int Dim>
 void RigidWall<Dim>::constrain_updated(const Nodes<Dim>& nodes, NodeFields<Dim>& fields,
                                        double time, double dt)
 {
+  if (pushes()) return;
   const double before = motion_.velocity(time), after = motion_.velocity(time + dt);
   find_nodes(nodes, time + dt);
   for (const LocalIndex node : found_) {
@@ -53,6 +58,7 @@ template <int Dim>
 void RigidWall<Dim>::constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>& fields,
                                         double time, double dt)
 {
+  if (pushes()) return;
   const double velocity = motion_.velocity(time + dt);
   find_nodes(nodes, time + dt);
   for (const LocalIndex node : found_) {
@@ -105,6 +111,70 @@ void RigidWall<Dim>::stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, 
   for (const LocalIndex node : near_->held) put_to_face(node);
   for (const LocalIndex node : near_->nodes)
     if (side * (at[node] + dt * fields.updated_of(node)[axis] - face) > 0) put_to_face(node);
+}
+
+template <int Dim>
+Lanes RigidWall<Dim>::depth_of(const double* motion, double time) const
+{
+  const int axis = placement_.axis;
+  const double side = placement_.upper ? 1 : -1;
+  const Lanes centre = load(motion + (LeadingColumns<Dim>::position + axis) * lane_count);
+  return stdx::max(side * (centre - position(time)) + 0.5 * stiffness_.location_size[axis],
+                   Lanes(0.0));
+}
+
+template <int Dim>
+double RigidWall<Dim>::push_per_mass(const Body<Dim>& body) const
+{
+  const double rate = body.law->wave_speed() / stiffness_.location_size[placement_.axis];
+  return stiffness_.kappa * rate * rate;  // C = rho c^2
+}
+
+template <int Dim>
+bool RigidWall<Dim>::push(const Body<Dim>& body, LocalIndex block, double time, Lanes (&force)[Dim])
+{
+  const double* motion = body.particles.motion().block(block);
+  const Lanes depth = depth_of(motion, time);
+  if (!stdx::any_of(depth > 0.0)) return false;
+  const Lanes mass = load(motion + LeadingColumns<Dim>::mass * lane_count);
+  const double towards = placement_.upper ? -1 : 1;
+  const Lanes on_particles = towards * push_per_mass(body) * mass * depth;
+  force[placement_.axis] += on_particles;
+  push_ += stdx::reduce(on_particles);
+  return true;
+}
+
+template <int Dim>
+void RigidWall<Dim>::book_push(double time, double dt)
+{
+  this->book_force(placement_.axis, push_, motion_.velocity(time), dt);
+}
+
+template <int Dim>
+ContactSums RigidWall<Dim>::stored(const Body<Dim>& body, double time) const
+{
+  ContactSums sums;
+  Lanes energy = 0, way = 0;
+  for (LocalIndex b = 0; b < body.particles.blocks(); ++b) {
+    const double* motion = body.particles.motion().block(b);
+    const Lanes mass = load(motion + LeadingColumns<Dim>::mass * lane_count);
+    Lanes depth = depth_of(motion, time);
+    stdx::where(mass <= 0.0, depth) = 0.0;
+    energy += 0.5 * push_per_mass(body) * mass * depth * depth;
+    way += depth;
+    sums.pairs += stdx::popcount(depth > 0.0);
+  }
+  sums.energy = stdx::reduce(energy);
+  sums.overlapped_area = stdx::reduce(way) * stiffness_.location_size.prod() /
+                         stiffness_.location_size[placement_.axis];
+  return sums;
+}
+
+template <int Dim>
+void RigidWall<Dim>::archive(Archive& archive)
+{
+  BoundaryCondition<Dim>::archive(archive);
+  if (pushes()) archive.value("push", push_);
 }
 
 template class RigidWall<2>;

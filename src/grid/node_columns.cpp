@@ -23,6 +23,7 @@ std::vector<NodeBytes> field_columns(const typename NodeFields<Dim>::Needs& need
   add("remapped_momentum", &Fields::remapped_momentum);
   add("load_force", &Fields::load_force);
   add("gradient_velocity", &Fields::gradient_velocity);
+  add("surface", &Fields::surface);
   return columns;
 }
 

@@ -30,6 +30,7 @@ NodeFields<Dim>::NodeFields(LocalIndex nodes, const Needs& needs, double mass_cu
   updated.assign(std::size_t(nodes) * record_width, 0.0);
   if (needs.remap) remapped_momentum.assign(std::size_t(nodes) * remap_width, 0.0);
   if (needs.load_force) load_force.assign(std::size_t(nodes) * Dim, 0.0);
+  if (needs.surface) surface.assign(std::size_t(nodes) * surface_width, 0.0);
   if (needs.gradient) gradient_velocity.assign(std::size_t(nodes) * velocity_width, 0.0);
 }
 
@@ -50,6 +51,12 @@ void NodeFields<Dim>::reset_remap(Runs runs)
 }
 
 template <int Dim>
+void NodeFields<Dim>::reset_surface(Runs runs)
+{
+  for (const NodeRun<Dim>& run : runs) zero(surface, run.first, run.length, surface_width);
+}
+
+template <int Dim>
 void NodeFields<Dim>::clear(std::span<const LocalIndex> nodes)
 {
   for (const LocalIndex node : nodes) {
@@ -58,6 +65,7 @@ void NodeFields<Dim>::clear(std::span<const LocalIndex> nodes)
     zero(updated, node, 1, record_width);
     if (!remapped_momentum.empty()) zero(remapped_momentum, node, 1, remap_width);
     if (!load_force.empty()) zero(load_force, node, 1, Dim);
+    if (!surface.empty()) zero(surface, node, 1, surface_width);
     if (!gradient_velocity.empty()) zero(gradient_velocity, node, 1, velocity_width);
   }
 }
@@ -187,7 +195,7 @@ template <int Dim>
 std::size_t NodeFields<Dim>::bytes() const
 {
   return (mass.size() + momentum_force.size() + updated.size() + remapped_momentum.size() +
-          load_force.size() + gradient_velocity.size()) *
+          load_force.size() + gradient_velocity.size() + surface.size()) *
          sizeof(double);
 }
 

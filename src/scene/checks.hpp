@@ -36,6 +36,7 @@ void check_materials(const Checked& checked);
 void check_specimen(const Checked& checked);
 void check_sides(const Checked& checked);
 void check_loads(const Checked& checked);
+void check_contact(const Checked& checked);
 void check_run(const Checked& checked);
 
 }  // namespace mpm::scene

@@ -1,3 +1,7 @@
+#include <mpm/transfer/musl_displacement.hpp>
+
+#include <algorithm>
+
 #include "checks.hpp"
 #include <fmt/format.h>
 
@@ -42,11 +46,51 @@ void check_moving_sides(const Checked& checked, const FreeMotion& motion)
   }
 }
 
+/// What walls that push particles need of the method.
+void check_pushing_walls(const Checked& checked)
+{
+  const Numerics& numerics = checked.scene.numerics;
+  const std::string stiffness = "numerics.contact_stiffness", order = "numerics.update_order";
+  if (numerics.formulation == FormulationKind::total_lagrangian) return;
+  if (!walls_push(checked.scene))
+    return checked.refuse(stiffness, "nothing is in contact",
+                          "Leave it out, or use grip: contact or formulation: total_lagrangian");
+  if (numerics.contact_stiffness == 0)
+    checked.refuse(stiffness, "walls with grip: contact would hold nothing back", "Leave it out");
+  if (numerics.scheme->refines)
+    checked.refuse("numerics.scheme", "a wall with grip: contact does not know refined velocities",
+                   "Use scheme: flip");
+  // Else work is done on the wall that no strain has stored, and ringing grows at any step.
+  if (numerics.update_order->keyword == MuslDisplacement::row.keyword) return;
+  const std::string reason =
+      "what a wall with grip: contact pushes must move by the velocities that its strain sees";
+  const std::string remedy = fmt::format("update_order: {}", MuslDisplacement::row.keyword);
+  if (checked.given(order))
+    checked.refuse(order, reason, "Use " + remedy);
+  else
+    checked.miss(order, reason, "Add " + remedy);
+}
+
 }  // namespace
+
+bool walls_push(const Scene& scene)
+{
+  if (const auto* loading = std::get_if<Loading>(&scene.motion))
+    return loading->grip == Grip::contact;
+  return std::ranges::any_of(std::get<FreeMotion>(scene.motion).moving_sides,
+                             [](const MovingSide& side) { return side.grip == Grip::contact; });
+}
+
+double contact_stiffness(const Numerics& numerics)
+{
+  const bool of_bodies = numerics.formulation == FormulationKind::total_lagrangian;
+  return numerics.contact_stiffness.value_or(of_bodies ? 2.0 : 0.5);
+}
 
 void check_sides(const Checked& checked)
 {
   const int dimensions = checked.scene.dimensions;
+  check_pushing_walls(checked);
   if (const auto* loading = std::get_if<Loading>(&checked.scene.motion)) {
     if (axis_of(loading->piston) >= dimensions)
       checked.refuse("loading.piston", "the scene lies in the plane",

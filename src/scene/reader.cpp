@@ -106,6 +106,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   check_specimen(checked);
   check_sides(checked);
   check_loads(checked);
+  check_contact(checked);
   check_run(checked);
   problems.throw_if_any();
 

@@ -43,10 +43,12 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       member<N>("formulation", &N::formulation, {},
                 "weights in the present configuration, on a grid that forgets; or in the reference "
                 "one, on cells that are locations, with contact of the body with itself"),
-      member<N>("contact_stiffness", &N::contact_stiffness, {.bound = from_to(0, 100)},
-                "twice this times the modulus of the fastest wave times the depth over the size of "
-                "a location is the pressure across a flush contact; 0: no contact")
-          .when(of_cells),
+      member<N>("contact_stiffness", &N::contact_stiffness,
+                {.bound = from_to(0, 100),
+                 .default_text = "2 of total_lagrangian, 0.5 of walls with grip: contact"},
+                "times the modulus of the fastest wave times the depth over the size of a location "
+                "is the pressure of a wall with grip: contact, and half of that across a flush "
+                "contact of total_lagrangian; 0 there: no contact"),
       member<N>("friction", &N::friction, {.bound = at_least(0)},
                 "Coulomb's coefficient where cells meet; large: what meets sticks")
           .when(of_cells),
@@ -121,7 +123,9 @@ const std::vector<Parameter<Loading>>& parameters<Loading>()
                  .bound = at_least(0),
                  .default_text = "8 times the fastest wave's way through"},
                 "smooth rise of the piston's speed; 0: at once"),
-      member<L>("grip", &L::grip, {}, "of the piston and of the fixed edge opposite"),
+      member<L>(
+          "grip", &L::grip, {},
+          "of the piston and of the fixed edge opposite; contact: they push, and hold nothing"),
       member<L>(
           "lateral", &L::lateral, {.spread = true},
           "the sides along the travel: lower (or left), upper (or right); in space of the first, "
@@ -166,7 +170,8 @@ const std::vector<Parameter<MovingSide>>& parameters<MovingSide>()
   using M = MovingSide;
   static const std::vector<Parameter<M>> rows{
       member<M>("side", &M::side, {.need = Need::required}, "where the wall stands at the start"),
-      member<M>("grip", &M::grip, {}, "whether it holds what it touches along its face"),
+      member<M>("grip", &M::grip, {},
+                "whether it holds what it touches, along its face too; contact: it pushes only"),
       member<M>("table", &M::table, {.quantity = Quantity::velocity, .need = Need::required},
                 "times and velocities along the side's axis, straight lines between them, constant "
                 "before and after"),

@@ -53,6 +53,8 @@ const std::vector<Parameter<SceneKeys>>& parameters<SceneKeys>()
       member<S>("definitions", &S::definitions, {.default_text = "none"},
                 "names that formulas may use, each also in the ones below it"),
       member<S>("loads", &S::loads, {.default_text = "none"}, "forces from outside"),
+      member<S>("contact", &S::contacts, {.default_text = "none: bodies stick where they meet"},
+                "between bodies that are not one, each in a velocity field of its own"),
       member<S>("exact_solution", &S::exact_solution, {.default_text = "none"},
                 "what the run is compared with; its errors are in summary.json and "
                 "exact_solution.csv"),

@@ -28,99 +28,7 @@ double fastest_wave(const Formulation<Dim>& formulation)
   return speed;
 }
 
-/// Everything that a line holds.
-template <class T>
-struct Member {
-  const char* name;
-  T HistoryLine::*member;
-};
-constexpr Member<double> measured[] = {{"time", &HistoryLine::time},
-                                       {"strain", &HistoryLine::strain},
-                                       {"piston_stress", &HistoryLine::piston_stress},
-                                       {"edge_stress", &HistoryLine::edge_stress},
-                                       {"load_cell_stress", &HistoryLine::load_cell_stress},
-                                       {"kinetic_energy", &HistoryLine::kinetic_energy},
-                                       {"elastic_energy", &HistoryLine::elastic_energy},
-                                       {"plastic_work", &HistoryLine::plastic_work},
-                                       {"external_work", &HistoryLine::external_work},
-                                       {"contact_energy", &HistoryLine::contact_energy},
-                                       {"friction_work", &HistoryLine::friction_work},
-                                       {"overlapped_area", &HistoryLine::overlapped_area},
-                                       {"energy_error", &HistoryLine::energy_error},
-                                       {"momentum_error", &HistoryLine::momentum_error},
-                                       {"time_step", &HistoryLine::time_step}};
-constexpr Member<GlobalIndex> counted[] = {{"particles", &HistoryLine::particles},
-                                           {"contact_pairs", &HistoryLine::contact_pairs},
-                                           {"behind_piston", &HistoryLine::behind_piston},
-                                           {"outside_walls", &HistoryLine::outside_walls}};
-
-void archive_lines(Archive& archive, std::vector<HistoryLine>& lines)
-{
-  const Archive::Section section(archive, "lines");
-  GlobalIndex count = GlobalIndex(lines.size());
-  archive.value("count", count);
-  lines.resize(std::size_t(count));
-  const auto columns = [&]<class T>(const Member<T>* members, std::size_t size) {
-    for (const auto& [name, member] : std::span(members, size)) {
-      std::vector<T> column;
-      for (const HistoryLine& line : lines) column.push_back(line.*member);
-      archive.values(name, column);
-      for (std::size_t k = 0; k < lines.size(); ++k) lines[k].*member = column[k];
-    }
-  };
-  columns(measured, std::size(measured));
-  columns(counted, std::size(counted));
-}
-
 }  // namespace
-
-std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind)
-{
-  std::vector<output::HistoryColumn> list{{"time", "s"}};
-  if (kind.piston) {
-    list.push_back({"strain", "1"});
-    list.push_back({"stress", "Pa"});
-    list.push_back({"stress_piston", "Pa"});
-    list.push_back({"stress_edge", "Pa"});
-    if (kind.load_cell) list.push_back({"stress_load_cell", "Pa"});
-  }
-  for (const char* energy : {"kinetic_energy", "elastic_energy", "plastic_work", "external_work"})
-    list.push_back({energy, "J"});
-  if (kind.contact) {
-    list.push_back({"contact_energy", "J"});
-    list.push_back({"friction_work", "J"});
-    list.push_back({"overlapped_area", "m2"});
-    list.push_back({"contact_pairs", "1"});
-  }
-  list.push_back({"energy_error", "1"});
-  list.push_back({"momentum_error", "1"});
-  list.push_back({"particles", "1"});
-  list.push_back({"time_step", "s"});
-  if (kind.piston) {
-    list.push_back({"behind_piston", "1"});
-    list.push_back({"outside_walls", "1"});
-  }
-  return list;
-}
-
-std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind)
-{
-  std::vector<double> values{line.time};
-  if (kind.piston) {
-    values.insert(values.end(), {line.strain, line.stress(), line.piston_stress, line.edge_stress});
-    if (kind.load_cell) values.push_back(line.load_cell_stress);
-  }
-  values.insert(values.end(),
-                {line.kinetic_energy, line.elastic_energy, line.plastic_work, line.external_work});
-  if (kind.contact)
-    values.insert(values.end(), {line.contact_energy, line.friction_work, line.overlapped_area,
-                                 double(line.contact_pairs)});
-  values.insert(values.end(),
-                {line.energy_error, line.momentum_error, double(line.particles), line.time_step});
-  if (kind.piston)
-    values.insert(values.end(), {double(line.behind_piston), double(line.outside_walls)});
-  return values;
-}
 
 template <int Dim>
 History<Dim>::History(Formulation<Dim>& formulation, std::optional<Apparatus<Dim>> apparatus,
@@ -136,13 +44,13 @@ template <int Dim>
 HistoryKind History<Dim>::kind() const
 {
   return {apparatus_.has_value(), apparatus_ && apparatus_->load_cell_body >= 0,
-          start_.contact.has_value()};
+          start_.contact.has_value(), formulation_.has_friction()};
 }
 
 template <int Dim>
 void History<Dim>::before_line()
 {
-  stress_work_before_ = sum_over_bodies(formulation_).stress_work();
+  work_ahead_before_ = work_ahead(sum_over_bodies(formulation_));
 }
 
 template <int Dim>
@@ -219,16 +127,26 @@ double History<Dim>::surplus(const Sums<Dim>& sums) const
          start_.stress_work();
 }
 
+/// What is stored or dissipated, weighted with how far it is ahead of the velocities, in steps, J.
+template <int Dim>
+double History<Dim>::work_ahead(const Sums<Dim>& sums) const
+{
+  constexpr double places = 0.5;
+  return formulation_.stress_moment() * (sums.elastic_energy + sums.plastic_work) +
+         (sums.contact ? places * sums.contact->energy : 0.0);
+}
+
 template <int Dim>
 void History<Dim>::balance(HistoryLine& line, const Sums<Dim>& sums)
 {
   // Velocities, and with them kinetic energy and external work, stand half a step before the
   // stresses that the step leaves, with USF half a step after them (leap-frog): the work of the
-  // stresses is taken there, or the balance would be off by half a step's work.
-  const double stress_work = sums.stress_work();
-  const double last_step = stress_work - stress_work_before_.value_or(stress_work);
-  stress_work_before_.reset();
-  const double surplus = this->surplus(sums) - formulation_.stress_moment() * last_step;
+  // stresses is taken there, or the balance would be off by half a step's work. What contact stores
+  // goes with the places, half a step after the velocities in every order.
+  const double ahead = work_ahead(sums);
+  const double last_step = ahead - work_ahead_before_.value_or(ahead);
+  work_ahead_before_.reset();
+  const double surplus = this->surplus(sums) - last_step;
   const double scale = std::max(std::abs(line.external_work), start_.kinetic_energy);
   line.energy_error = scale > 0 ? surplus / scale : 0;
   energy_.check(formulation_, surplus, work_size_ + start_.kinetic_energy);
@@ -250,9 +168,9 @@ const HistoryLine& History<Dim>::record(double dt)
   line.plastic_work = sums.plastic_work;
   if (sums.contact) {
     line.contact_energy = sums.contact->energy;
-    line.friction_work = sums.contact->friction_work;
     line.overlapped_area = sums.contact->overlapped_area;
     line.contact_pairs = sums.contact->pairs;
+    line.friction_work = sums.contact->friction_work;
   }
   begin_line(line);
   if (apparatus_) {
@@ -320,12 +238,12 @@ void History<Dim>::archive(Archive& archive)
   archive.value("load_cell_mass_stress", load_cell_.mass_stress);
   archive.value("load_cell_mass", load_cell_.mass);
   archive.value("deepest_behind_piston", deepest_behind_piston_);
-  int line_is_due = stress_work_before_.has_value();
+  int line_is_due = work_ahead_before_.has_value();
   archive.value("line_is_due", line_is_due);
-  double stress_work = stress_work_before_.value_or(0);
-  archive.value("stress_work_before", stress_work);
-  stress_work_before_.reset();
-  if (line_is_due != 0) stress_work_before_ = stress_work;
+  double ahead = work_ahead_before_.value_or(0);
+  archive.value("work_ahead_before", ahead);
+  work_ahead_before_.reset();
+  if (line_is_due != 0) work_ahead_before_ = ahead;
   archive_lines(archive, lines_);
   const Archive::Section section(archive, "start");
   archive.value("particles", start_.particles);

@@ -16,7 +16,7 @@ std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
       return std::make_unique<TotalLagrangian>(
           decomposition, TotalLagrangian::Setup{std::move(model.bodies), std::move(model.slots),
                                                 layout.location_size, scene.numerics.thickness,
-                                                scene.numerics.contact_stiffness,
+                                                contact_stiffness(scene.numerics),
                                                 scene.numerics.friction, mass_scaling_of(scene)});
   typename UpdatedLagrangian<Dim>::Setup setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);

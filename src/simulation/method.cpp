@@ -18,7 +18,7 @@ bool is_total_lagrangian(const scene::Numerics& numerics)
 std::string limited_by(const scene::Numerics& numerics)
 {
   if (is_total_lagrangian(numerics))
-    return fmt::format("cells in contact with stiffness {:.3g}", numerics.contact_stiffness);
+    return fmt::format("cells in contact with stiffness {:.3g}", contact_stiffness(numerics));
   return fmt::format("{} with {} and {}", numerics.shape_function->keyword,
                      numerics.scheme->keyword, numerics.update_order->keyword);
 }
@@ -27,7 +27,7 @@ std::optional<double> stable_cfl_of(const scene::Numerics& numerics)
 {
   // A flush contact is 2 kappa times as stiff as the cells that it lies between: aligned faces bear
   // 0.42 with kappa 2 and 0.55 with kappa 1.
-  if (is_total_lagrangian(numerics)) return 0.95 / std::sqrt(1 + 2 * numerics.contact_stiffness);
+  if (is_total_lagrangian(numerics)) return 0.95 / std::sqrt(1 + 2 * contact_stiffness(numerics));
   return stable_cfl(*numerics.shape_function, *numerics.scheme, *numerics.update_order);
 }
 
@@ -73,8 +73,8 @@ std::vector<std::string> method_words(const scene::Numerics& numerics, int dimen
                                                                : "plane stress";
   if (is_total_lagrangian(numerics))
     return {"total Lagrangian cells that bend", "central differences",
-            numerics.contact_stiffness > 0
-                ? fmt::format("contact of stiffness {:.3g}", numerics.contact_stiffness)
+            contact_stiffness(numerics) > 0
+                ? fmt::format("contact of stiffness {:.3g}", contact_stiffness(numerics))
                 : "no contact",
             space};
   std::string shape(numerics.shape_function->words), scheme(numerics.scheme->words);

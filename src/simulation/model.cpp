@@ -2,6 +2,7 @@
 #include <mpm/core/error.hpp>
 #include <mpm/lagrangian/location_cells.hpp>
 #include <mpm/parallel/session.hpp>
+#include <mpm/simulation/body_contacts.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
 #include <mpm/simulation/surface_marks.hpp>
@@ -156,6 +157,12 @@ WallGrip grip_of(scene::Grip grip)
 }
 
 template <int Dim>
+WallStiffness<Dim> wall_stiffness(const scene::Scene& scene, const Layout<Dim>& layout)
+{
+  return {contact_stiffness(scene.numerics), layout.location_size};
+}
+
+template <int Dim>
 void add_apparatus(const scene::Scene& scene, const Specimen<Dim>& specimen,
                    const Layout<Dim>& layout, Model<Dim>& model)
 {
@@ -163,7 +170,8 @@ void add_apparatus(const scene::Scene& scene, const Specimen<Dim>& specimen,
   const WallGrip grip = grip_of(loading.grip);
   const auto wall = [&](int axis, bool upper, double position, const WallMotion& motion) {
     auto made = std::make_unique<RigidWall<Dim>>(WallPlacement{axis, upper, position}, motion, grip,
-                                                 reaction_book(scene.numerics));
+                                                 reaction_book(scene.numerics),
+                                                 wall_stiffness(scene, layout));
     RigidWall<Dim>* pointer = made.get();
     model.slots.conditions.push_back(std::move(made));
     return pointer;
@@ -195,7 +203,8 @@ WallPlacement placement_of(const Specimen<Dim>& specimen, int axis, bool upper)
 
 /// What acts at the sides of the grid.
 template <int Dim>
-void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, Model<Dim>& model)
+void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, const Layout<Dim>& layout,
+               Model<Dim>& model)
 {
   for (int axis = 0; axis < Dim; ++axis)
     for (const bool upper : {false, true}) {
@@ -214,7 +223,8 @@ void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, Model<D
   for (const scene::MovingSide& side : free->moving_sides)
     model.slots.conditions.push_back(std::make_unique<RigidWall<Dim>>(
         placement_of(specimen, axis_of(side.side), upper_of(side.side)),
-        WallMotion{.table = side.table}, grip_of(side.grip), reaction_book(scene.numerics)));
+        WallMotion{.table = side.table}, grip_of(side.grip), reaction_book(scene.numerics),
+        wall_stiffness(scene, layout)));
 }
 
 /// Collective. Throws InputError on every rank for a load that finds no particle.
@@ -299,9 +309,10 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
     });
     model.bodies.back().particles.seal();
   }
+  add_contact(scene, layout, model);
   if (std::holds_alternative<scene::Loading>(scene.motion))
     add_apparatus(scene, specimen, layout, model);
-  add_sides(scene, specimen, model);
+  add_sides(scene, specimen, layout, model);
   mark_loaded(scene, specimen, layout, decomposition.comm(), model);
   return model;
 }

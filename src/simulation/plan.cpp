@@ -1,6 +1,7 @@
 #include <mpm/lagrangian/location_mesh.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/parallel/shared_nodes.hpp>
+#include <mpm/simulation/body_contacts.hpp>
 #include <mpm/simulation/mesh_count.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
@@ -59,8 +60,9 @@ Plan::Nodes nodes_of(const Preparation<Dim>& preparation, int support)
 {
   const Ownership<Dim>& ownership = preparation.partition.ownership;
   const scene::Numerics& numerics = preparation.scene.numerics;
-  const auto needs = node_needs<Dim>(*numerics.update_order, extras_of(numerics),
-                                     loads_of<Dim>(preparation.scene));
+  const auto needs =
+      node_needs<Dim>(*numerics.update_order, extras_of(numerics), loads_of<Dim>(preparation.scene),
+                      !preparation.scene.contacts.empty());
   Plan::Nodes nodes{.in_grid = ownership.geometry().nodes.template cast<double>().prod(),
                     .allocated = 0,
                     .largest_rank = 0,
@@ -72,6 +74,13 @@ Plan::Nodes nodes_of(const Preparation<Dim>& preparation, int support)
     nodes.largest_rank = std::max(nodes.largest_rank, box);
   }
   return nodes;
+}
+
+int velocity_fields(const scene::Scene& scene, const Plan& plan)
+{
+  std::vector<std::string> names;
+  for (const Plan::Particles& body : plan.bodies) names.push_back(body.body);
+  return std::ranges::max(fields_of_bodies(scene, names)) + 1;
 }
 
 /// "left: piston", ... in the order in which the model has them.
@@ -119,7 +128,8 @@ void plan_mesh(const Preparation<Dim>& preparation, Plan& plan)
     plan.nodes.allocated += count.nodes;
     plan.nodes.largest_rank = std::max(plan.nodes.largest_rank, count.nodes);
     plan.hinges += count.hinges;
-    if (preparation.scene.numerics.contact_stiffness > 0) plan.contact_cells += count.contact_cells;
+    if (contact_stiffness(preparation.scene.numerics) > 0)
+      plan.contact_cells += count.contact_cells;
   }
   if (preparation.scene.numerics.friction > 0)
     plan.nodes.columns.push_back({"friction", Dim * int(sizeof(double))});
@@ -206,8 +216,13 @@ Plan make_plan(const Preparation<Dim>& preparation)
   } else {
     const int support = make_transfer<Dim>(numerics, preparation.layout.per_cell)->support();
     plan.nodes = nodes_of(preparation, support);
-    plan.passes = outline_step<Dim>(numerics.update_order, extras_of(numerics),
-                                    loads_of<Dim>(scene).act_on_particles());
+    plan.passes =
+        outline_step<Dim>(numerics.update_order, extras_of(numerics),
+                          loads_of<Dim>(scene).act_on_particles(), !scene.contacts.empty());
+    const int fields = velocity_fields(scene, plan);
+    for (PassOutline& pass : plan.passes) pass.values_per_node *= fields;
+    for (NodeBytes& column : plan.nodes.columns)
+      if (column.name != "marks") column.bytes *= fields;
     measure_messages(preparation, support, plan);
   }
   plan.conditions = conditions_of(preparation);

@@ -86,6 +86,7 @@ std::vector<Plan::LeftOut> left_out(const Preparation<Dim>& preparation, const P
   add_if(!particles_hold(plan, "initial_position"), "first places",
          "no exact solution, no load that follows them");
   add_if(plan.loads.empty(), "loads and their forces", "the scene names none");
+  add_if(scene.contacts.empty(), "contact between bodies", "the scene names none");
   add_if(loading && plan.conditions.size() == 2, "walls beside the travel", "no side is one");
   add_if(!loading && plan.conditions.empty(), "walls", "no side is one");
   add_if(!any_periodic(scene, Dim), "periodic images", "no side is periodic");

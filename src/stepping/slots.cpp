@@ -6,6 +6,26 @@
 namespace mpm {
 
 template <int Dim>
+bool Slots<Dim>::need_surfaces() const
+{
+  return std::ranges::any_of(contacts,
+                             [](const auto& contact) { return contact->needs_surfaces(); });
+}
+
+template <int Dim>
+void Slots<Dim>::scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfer,
+                         const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time) const
+{
+  loads.scatter(part, transfer, grid, fields, time);
+  for (const auto& condition : conditions)
+    if (condition->pushes())
+      transfer.outside_force(part, grid, fields.force_column(),
+                             [&](LocalIndex block, Lanes(&force)[Dim]) {
+                               return condition->push(part.body, block, time, force);
+                             });
+}
+
+template <int Dim>
 double Slots<Dim>::largest_step() const
 {
   double step = loads.largest_step();

@@ -1,10 +1,29 @@
 #include <mpm/stepping/step.hpp>
 
+#include <utility>
+
 namespace mpm {
+
+template <int Dim>
+void Step<Dim>::find_surfaces()
+{
+  if (std::exchange(surfaces_found, true)) return;
+  for (const auto& contact : slots.contacts) {
+    if (!contact->needs_surfaces()) continue;
+    const std::span<const char> asked = contact->meet(grid(), transfer.support(), fields);
+    for (Fields& field : fields) field.reset_surface(grid().runs());
+    exchange.pass_and_sum(bodies, columns({&Fields::surface_column}), moment,
+                          [&](const BodyPart<Dim>& part) {
+                            return transfer.surface(part, grid(), fields_of(part), asked);
+                          });
+    contact->measure(grid(), fields);
+  }
+}
 
 template <int Dim>
 void Step<Dim>::update_velocity(double dt)
 {
+  find_surfaces();
   for (NodeFields<Dim>& field : fields) {
     slots.loads.apply(grid(), grid().runs(), field, time(), dt);
     field.update_velocity(grid().runs(), dt);
@@ -15,6 +34,8 @@ void Step<Dim>::update_velocity(double dt)
       condition->constrain_updated(grid(), field, time(), dt);
     slots.loads.book(grid(), grid().runs(), field, dt);
   }
+  for (const auto& contact : slots.contacts) contact->book(grid(), fields);
+  for (const auto& condition : slots.conditions) condition->book_push(time(), dt);
   if (extras.refinements > 0) refine_velocity(dt);
 }
 
@@ -46,6 +67,7 @@ void Step<Dim>::remap_velocity()
 template <int Dim>
 void Step<Dim>::constrain_gradient(double dt)
 {
+  find_surfaces();
   for (const auto& contact : slots.contacts) contact->exchange_gradient(grid(), fields, time(), dt);
   for (NodeFields<Dim>& field : fields)
     for (const auto& condition : slots.conditions)
@@ -73,6 +95,7 @@ template <int Dim>
 void Step<Dim>::reset()
 {
   for (NodeFields<Dim>& field : fields) field.reset(grid().runs());
+  for (const auto& condition : slots.conditions) condition->reset_push();
 }
 
 template <int Dim>

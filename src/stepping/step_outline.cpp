@@ -3,6 +3,7 @@
 #include <mpm/transfer/order_types.hpp>
 
 #include <initializer_list>
+#include <utility>
 
 namespace mpm {
 
@@ -36,6 +37,7 @@ class Notes {
     Nothing usl(auto&&...) const { return note("usl"); }
     Nothing refine_velocity(auto&&...) const { return note("refine_velocity"); }
     Nothing divergence(auto&&...) const { return note("divergence"); }
+    Nothing surface(auto&&...) const { return note("surface"); }
 
    private:
     Nothing note(const char* called) const
@@ -59,7 +61,10 @@ class Notes {
     }
   };
 
-  Notes(const StepExtras& extras, bool load_force) : extras_(extras), load_force_(load_force) {}
+  Notes(const StepExtras& extras, bool load_force, bool surface)
+      : extras_(extras), load_force_(load_force), surface_(surface)
+  {
+  }
   Notes(const Notes&) = delete;
   Notes& operator=(const Notes&) = delete;
 
@@ -74,9 +79,10 @@ class Notes {
   };
   NoNodes grid() const { return {}; }
   Nothing fields_of(Nothing) const { return {}; }
-  Nothing with_loads(Nothing, double, Nothing) const { return {}; }
+  Nothing with_forces(Nothing, double, Nothing) const { return {}; }
   void update_velocity(double)
   {
+    find_surfaces();
     for (int k = 0; k < extras_.refinements; ++k) {
       transfer.refine_velocity();
       add(columns({&Fields::remap_column}));
@@ -87,7 +93,7 @@ class Notes {
     transfer.musl_velocity();
     add(columns({&Fields::remap_column}));
   }
-  void constrain_gradient(double) {}
+  void constrain_gradient(double) { find_surfaces(); }
   void average_divergence()
   {
     if (!extras_.f_bar) return;
@@ -116,7 +122,15 @@ class Notes {
     if (column == &Fields::momentum_column) return "momentum";
     if (column == &Fields::force_column) return "force";
     if (column == &Fields::momentum_force_column) return "momentum and force";
+    if (column == &Fields::surface_column) return "surface";
     return column == &Fields::remap_column ? "re-mapped momentum" : "load force";
+  }
+
+  void find_surfaces()
+  {
+    if (!std::exchange(surface_, false)) return;
+    transfer.surface();
+    add(columns({&Fields::surface_column}));
   }
 
   void add(const Sums& sums)
@@ -131,6 +145,7 @@ class Notes {
 
   const StepExtras& extras_;
   bool load_force_;
+  bool surface_;  ///< and not found yet
   std::string name_;
   Fields probe_{1, {}, 0};
 };
@@ -139,16 +154,18 @@ class Notes {
 
 template <int Dim>
 std::vector<PassOutline> outline_step(OneOf<UpdateOrderRow> order, const StepExtras& extras,
-                                      bool load_force)
+                                      bool load_force, bool surface)
 {
-  Notes<Dim> notes(extras, load_force);
+  Notes<Dim> notes(extras, load_force, surface);
   for_each_type(OrderTypes{}, [&]<class Order>() {
     if (order == Order::row.keyword) Order::step(notes, 1.0);
   });
   return notes.passes;
 }
 
-template std::vector<PassOutline> outline_step<2>(OneOf<UpdateOrderRow>, const StepExtras&, bool);
-template std::vector<PassOutline> outline_step<3>(OneOf<UpdateOrderRow>, const StepExtras&, bool);
+template std::vector<PassOutline> outline_step<2>(OneOf<UpdateOrderRow>, const StepExtras&, bool,
+                                                  bool);
+template std::vector<PassOutline> outline_step<3>(OneOf<UpdateOrderRow>, const StepExtras&, bool,
+                                                  bool);
 
 }  // namespace mpm

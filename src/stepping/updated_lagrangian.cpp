@@ -18,7 +18,8 @@ template <int Dim>
 void UpdatedLagrangian<Dim>::connect(Decomposition<Dim> decomposition)
 {
   exchange_ = std::make_unique<Exchange<Dim>>(std::move(decomposition), *setup_.transfer);
-  const auto needs = node_needs(*setup_.order, setup_.extras, setup_.slots.loads);
+  const auto needs =
+      node_needs(*setup_.order, setup_.extras, setup_.slots.loads, setup_.slots.need_surfaces());
   int fields = 1;
   for (const Body<Dim>& body : setup_.bodies) fields = std::max(fields, body.field + 1);
   fields_.clear();
@@ -30,7 +31,7 @@ void UpdatedLagrangian<Dim>::connect(Decomposition<Dim> decomposition)
   const bool with_force = setup_.order->begins_with_force;
   for (Body<Dim>& body : setup_.bodies) {
     step.transfer.prime(body, grid(), step.fields_of(body), with_force);
-    step.with_loads(body, 0, {});
+    step.with_forces(body, 0, {});
   }
   using Fields = NodeFields<Dim>;
   exchange_->halo().sum(step.sums({&Fields::mass_column, with_force ? &Fields::momentum_force_column
@@ -109,6 +110,15 @@ Carried<Dim> UpdatedLagrangian<Dim>::carried() const
     carried.kinetic_energy += stdx::reduce(kinetic);
     for (int d = 0; d < Dim; ++d) carried.momentum[d] += stdx::reduce(momentum[d]);
   }
+  const auto add = [&](const ContactSums& sums) {
+    if (!carried.contact) carried.contact = ContactSums{};
+    *carried.contact += sums;
+  };
+  for (const auto& contact : setup_.slots.contacts)
+    if (const auto sums = contact->sums()) add(*sums);
+  for (const auto& condition : setup_.slots.conditions)
+    if (condition->pushes())
+      for (const Body<Dim>& body : bodies()) add(condition->stored(body, time_));
   return carried;
 }
 

@@ -48,6 +48,7 @@ struct Gathered {
 class BlockRun {
  public:
   using Conditions = std::vector<std::unique_ptr<BoundaryCondition<2>>>;
+  using Contacts = std::vector<std::unique_ptr<Contact<2>>>;
 
   /// `ranks`: of the process grid; 0 lets the decomposition choose.
   BlockRun(MPI_Comm comm, const IndexVec<2>& ranks, const IndexVec<2>& grid_cells,
@@ -57,8 +58,9 @@ class BlockRun {
   {
   }
   BlockRun(const Decomposition<2>& decomposition, const Method& method,
-           const std::vector<Block>& blocks, Conditions conditions)
-      : decomposition_(decomposition), stepper_(make_stepper(method, blocks, std::move(conditions)))
+           const std::vector<Block>& blocks, Conditions conditions, Contacts contacts = {})
+      : decomposition_(decomposition),
+        stepper_(make_stepper(method, blocks, std::move(conditions), std::move(contacts)))
   {
   }
 
@@ -105,7 +107,7 @@ class BlockRun {
  private:
   std::unique_ptr<UpdatedLagrangian<2>> make_stepper(const Method& method,
                                                      const std::vector<Block>& blocks,
-                                                     Conditions conditions)
+                                                     Conditions conditions, Contacts contacts)
   {
     auto transfer = make_transfer<2>(method.shape, method.scheme, {0.5});
     std::vector<Body<2>> bodies;
@@ -125,6 +127,7 @@ class BlockRun {
     setup.extras.refinements = method.scheme->refines ? 3 : 0;
     setup.extras.refine_before_forces = method.scheme->refines_before_forces;
     setup.slots.conditions = std::move(conditions);
+    setup.slots.contacts = std::move(contacts);
     setup.mass_cut = 1e-12 * density * volume;
     return std::make_unique<UpdatedLagrangian<2>>(decomposition_, std::move(setup));
   }

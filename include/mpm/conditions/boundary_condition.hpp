@@ -4,6 +4,7 @@
 #include <mpm/conditions/reaction.hpp>
 #include <mpm/grid/mesh_nodes.hpp>
 #include <mpm/grid/node_fields.hpp>
+#include <mpm/materials/body.hpp>
 #include <mpm/transfer/scheme.hpp>
 
 namespace mpm {
@@ -27,6 +28,22 @@ class BoundaryCondition {
   /// reaction.
   virtual void stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
                     double dt) = 0;
+
+  /// Whether it pushes the particles that reach behind a face, and never holds them: it then
+  /// leaves the nodes alone.
+  virtual bool pushes() const { return false; }
+  /// Adds the force (N) at `time` on the particles of one block of a body, and remembers it.
+  /// Returns whether there is any.
+  virtual bool push(const Body<Dim>&, LocalIndex /*block*/, double /*time*/, Lanes (&)[Dim])
+  {
+    return false;
+  }
+  /// What the step from `time` to `time + dt`, begun with the forces remembered, does with them.
+  virtual void book_push(double /*time*/, double /*dt*/) {}
+  /// Forgets the forces: those of the next step come.
+  virtual void reset_push() {}
+  /// What a body that is pushed stores in its contact at `time`.
+  virtual ContactSums stored(const Body<Dim>&, double /*time*/) const { return {}; }
 
   /// Returns what was booked and starts again from zero.
   Reaction<Dim> take_reaction() { return reaction_.take(); }
@@ -61,6 +78,13 @@ class BoundaryCondition {
     if (!owned) return;
     reaction_.impulse[component] += impulse;
     reaction_.work += impulse * 0.5 * (before + velocity);
+  }
+
+  /// A force (N) on the body along an axis throughout a step, by what moves with this velocity.
+  void book_force(int axis, double force, double velocity, double dt)
+  {
+    reaction_.impulse[axis] += dt * force;
+    reaction_.work += dt * force * velocity;
   }
 
  private:

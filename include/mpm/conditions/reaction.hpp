@@ -1,5 +1,6 @@
 #pragma once
-/// What a condition, a load or a contact gave to the bodies since it was last asked.
+/// What a condition, a load or a contact gave to the bodies since it was last asked, and what it
+/// stores.
 
 #include <mpm/core/archive.hpp>
 #include <mpm/core/types.hpp>
@@ -7,6 +8,24 @@
 #include <utility>
 
 namespace mpm {
+
+/// What contact stores, on this rank.
+struct ContactSums {
+  double energy = 0;           ///< J
+  double overlapped_area = 0;  ///< m^2; in space volume, m^3
+  /// Of cells that touch, each counts for either; of particle and wall; of bodies at a node.
+  GlobalIndex pairs = 0;
+  double friction_work = 0;  ///< J, lost since the start
+
+  ContactSums& operator+=(const ContactSums& other)
+  {
+    energy += other.energy;
+    overlapped_area += other.overlapped_area;
+    pairs += other.pairs;
+    friction_work += other.friction_work;
+    return *this;
+  }
+};
 
 /// This rank's nodes only.
 template <int Dim>

@@ -30,6 +30,7 @@ class NodeFields {
   /// In 2D the velocity is there twice, so that one product yields both columns of its gradient.
   static constexpr int velocity_width = 4;
   static constexpr int remap_width = Dim == 2 ? 2 : 4;
+  static constexpr int surface_width = Dim + Dim * (Dim + 1) / 2;
   /// Sums that a step with mass, momentum and force sends for each node.
   static constexpr int values_per_node = 1 + 2 * Dim;
 
@@ -38,6 +39,7 @@ class NodeFields {
     bool remap = false;       ///< re-mapped momentum, also in refinements and means
     bool load_force = false;  ///< force from outside, for its work
     bool gradient = true;     ///< velocity whose gradient particles take
+    bool surface = false;     ///< where the body's surface lies, for contact
   };
 
   /// `mass_cut`, kg: nodes with less take no part.
@@ -49,6 +51,7 @@ class NodeFields {
   /// Zeroes mass, momentum, force and load force.
   void reset(Runs runs);
   void reset_remap(Runs runs);
+  void reset_surface(Runs runs);
   /// Zeroes everything that these nodes carry.
   void clear(std::span<const LocalIndex> nodes);
 
@@ -93,6 +96,8 @@ class NodeFields {
   {
     return gradient_velocity.data() + std::size_t(node) * velocity_width;
   }
+  /// {sum w m r, sum w m r (x) r} with r = x_p - x_i, of the second i <= j, row by row.
+  double* surface_of(LocalIndex node) { return surface.data() + std::size_t(node) * surface_width; }
   void set_gradient_velocity(LocalIndex node, int component, double value);
 
   // For sums over the ranks.
@@ -107,6 +112,7 @@ class NodeFields {
   NodeColumn force_column() { return {momentum_force.data() + Dim, record_width, Dim}; }
   NodeColumn momentum_force_column() { return {momentum_force.data(), record_width, 2 * Dim}; }
   NodeColumn load_force_column() { return {load_force.data(), Dim, Dim}; }
+  NodeColumn surface_column() { return {surface.data(), surface_width, surface_width}; }
   NodeColumn remap_column() { return {remapped_momentum.data(), remap_width, Dim}; }
 
   void archive(Archive& archive);
@@ -119,6 +125,7 @@ class NodeFields {
   LaneVector<double> remapped_momentum;  ///< empty where it is not needed
   LaneVector<double> load_force;         ///< [N * Dim], empty where there are no loads
   LaneVector<double> gradient_velocity;  ///< what the velocity gradient is taken of, or empty
+  LaneVector<double> surface;            ///< kg m and kg m^2, as in `surface_of`, or empty
 
  private:
   double mass_cut_;

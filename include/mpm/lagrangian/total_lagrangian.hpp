@@ -43,6 +43,7 @@ class TotalLagrangian final : public Formulation<2> {
   const Decomposition<2>& decomposition() const override { return decomposition_; }
   LocalIndex active_nodes() const override { return nodes_->size(); }
   Carried<2> carried() const override;
+  bool has_friction() override { return !friction_.empty(); }
   Reaction<2> take_reaction() override { return scaling_.take(); }
   double stress_moment() const override { return 0.5; }
   Slots<2>& slots() override { return setup_.slots; }

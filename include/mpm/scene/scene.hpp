@@ -113,10 +113,11 @@ enum class FormulationKind { updated_lagrangian, total_lagrangian };
 
 struct Numerics {
   FormulationKind formulation = FormulationKind::updated_lagrangian;
-  /// Of total_lagrangian: across a flush face pressure is 2 of it times the modulus of the fastest
-  /// wave times the depth over the size of a location; 0: none.
-  double contact_stiffness = 2;
-  double friction = 0;          ///< of total_lagrangian: Coulomb's coefficient where cells meet
+  /// Over the modulus of the fastest wave times the depth over the size of a location, of the
+  /// pressure of a wall that pushes, and of half of that across a flush face in total_lagrangian,
+  /// where 0 is none.
+  std::optional<double> contact_stiffness;
+  double friction = 0;  ///< of total_lagrangian: Coulomb's coefficient where cells meet
   /// Of total_lagrangian: least stretch of cells that keep their mass. Default depends on what
   /// moves the specimen.
   std::optional<double> mass_scaling;
@@ -187,6 +188,13 @@ struct Load {
   bool operator==(const Load&) const = default;
 };
 
+/// Between two bodies, each in a velocity field of its own.
+struct BodyContact {
+  std::vector<std::string> between;  ///< two materials
+  double friction = 0;               ///< tangential over normal force, at most
+  bool operator==(const BodyContact&) const = default;
+};
+
 // ---------------------------------------------------------------------------- output
 
 enum class Field {
@@ -232,11 +240,17 @@ struct Scene {
   Numerics numerics;
   std::variant<Loading, FreeMotion> motion;
   std::vector<Load> loads;
+  std::vector<BodyContact> contacts;  ///< without any, all bodies move in one velocity field
   Definitions definitions;
   std::optional<ExactSolution> exact_solution;
   std::optional<long> steps;  ///< end after this many steps (benchmarks)
   Output output;
   bool operator==(const Scene&) const = default;
 };
+
+/// Whether a wall pushes what comes to its face, and holds nothing.
+bool walls_push(const Scene& scene);
+/// That is given, or the default of the formulation.
+double contact_stiffness(const Numerics& numerics);
 
 }  // namespace mpm::scene

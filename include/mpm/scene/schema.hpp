@@ -52,6 +52,8 @@ inline constexpr std::string_view section<MovingSide> = "moving side";
 template <>
 inline constexpr std::string_view section<Load> = "load";
 template <>
+inline constexpr std::string_view section<BodyContact> = "contact";
+template <>
 inline constexpr std::string_view section<ExactSolution> = "exact solution";
 template <>
 inline constexpr std::string_view section<OutputKeys> = "output";
@@ -83,6 +85,8 @@ template <>
 const std::vector<Parameter<MovingSide>>& parameters<MovingSide>();
 template <>
 const std::vector<Parameter<Load>>& parameters<Load>();
+template <>
+const std::vector<Parameter<BodyContact>>& parameters<BodyContact>();
 template <>
 const std::vector<Parameter<ExactSolution>>& parameters<ExactSolution>();
 template <>

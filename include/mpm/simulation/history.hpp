@@ -1,8 +1,8 @@
 #pragma once
 /// Scalars over time, with the checks that belong to them.
 
-#include <mpm/output/history.hpp>
 #include <mpm/simulation/energy_monitor.hpp>
+#include <mpm/simulation/history_line.hpp>
 #include <mpm/simulation/measures.hpp>
 #include <mpm/simulation/model.hpp>
 
@@ -10,42 +10,6 @@
 #include <vector>
 
 namespace mpm {
-
-/// One line of history.csv.
-struct HistoryLine {
-  double time = 0;              ///< s
-  double strain = 0;            ///< piston displacement / specimen length
-  double piston_stress = 0;     ///< Pa, mean since the last line, compression positive
-  double edge_stress = 0;       ///< Pa
-  double load_cell_stress = 0;  ///< Pa, where there is a load cell
-  GlobalIndex particles = 0;
-  double kinetic_energy = 0;  ///< J
-  double elastic_energy = 0;  ///< J
-  double plastic_work = 0;    ///< J
-  double external_work = 0;   ///< J, of all loads, contacts and conditions
-  /// What is too much in the energy balance, all of it at the moment of the velocities, / external
-  /// work.
-  double energy_error = 0;
-  /// |momentum gained - impulse from outside| / (sum of the impulses' sizes + momentum at the
-  /// start): rounding, unless something is lost.
-  double momentum_error = 0;
-  double contact_energy = 0;                         ///< J
-  double friction_work = 0;                          ///< J, turned to heat in contact
-  double overlapped_area = 0;                        ///< m^2
-  GlobalIndex contact_pairs = 0;                     ///< of cells that touch
-  double time_step = 0;                              ///< s
-  GlobalIndex behind_piston = 0, outside_walls = 0;  ///< particles
-
-  /// The applied stress: mean of both ends, in which a wave on its way counts once.
-  double stress() const { return 0.5 * (piston_stress + edge_stress); }
-};
-
-/// What a history can have: stresses with a piston, one more with a load cell; contact of bodies.
-struct HistoryKind {
-  bool piston = false, load_cell = false, contact = false;
-};
-std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind);
-std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind);
 
 template <int Dim>
 class History {
@@ -80,6 +44,7 @@ class History {
   void take_reactions();
   void begin_line(HistoryLine& line);
   double surplus(const Sums<Dim>& sums) const;
+  double work_ahead(const Sums<Dim>& sums) const;
   void balance(HistoryLine& line, const Sums<Dim>& sums);
   void check(const Sums<Dim>& sums, const HistoryLine& line) const;
   void count_outside(HistoryLine& line);
@@ -89,7 +54,7 @@ class History {
   std::optional<Apparatus<Dim>> apparatus_;
   std::vector<HistoryLine> lines_;
   Sums<Dim> start_;
-  std::optional<double> stress_work_before_;  ///< J, before the last step
+  std::optional<double> work_ahead_before_;  ///< J, before the last step
   double external_work_ = 0;
   Vec<Dim> impulse_ = Vec<Dim>::Zero();  ///< N s, from outside
   double impulse_size_ = 0;              ///< N s, sum of the sizes

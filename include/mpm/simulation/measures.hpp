@@ -20,13 +20,12 @@ struct Sums {
   double elastic_energy = 0;             ///< J
   double plastic_work = 0;               ///< J
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
-  std::optional<typename Carried<Dim>::OfContact> contact{};
+  std::optional<ContactSums> contact{};
 
-  /// Work of the stresses, stored or dissipated, and what contact stores or turns to heat, J.
+  /// Work of the stresses, stored or dissipated, and what contact stores, J.
   double stress_work() const
   {
-    return elastic_energy + plastic_work +
-           (contact ? contact->energy + contact->friction_work : 0.0);
+    return elastic_energy + plastic_work + (contact ? contact->energy : 0.0);
   }
 };
 

@@ -45,14 +45,9 @@ struct Carried {
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
   double elastic_energy = 0;             ///< J, beside that of the particles' laws
   double added_mass = 0;                 ///< kg, by which cells were made heavier for longer steps
-  /// Of the contact of bodies with themselves and others, where there is one.
-  struct OfContact {
-    double energy = 0;           ///< J
-    double overlapped_area = 0;  ///< m^2; in space volume, m^3
-    GlobalIndex pairs = 0;       ///< of cells that touch; each counts for either cell
-    double friction_work = 0;    ///< J, turned to heat since the start
-  };
-  std::optional<OfContact> contact{};
+  /// Of the contact of bodies with themselves and others, and with walls that push, where there is
+  /// one.
+  std::optional<ContactSums> contact{};
 };
 
 /// Steps bodies of particles on this rank. All members but the plain look-ups are collective.
@@ -78,6 +73,7 @@ class Formulation {
   virtual const Decomposition<Dim>& decomposition() const = 0;
 
   virtual Carried<Dim> carried() const = 0;
+  virtual bool has_friction() { return slots().need_surfaces(); }
   /// What the step itself gave to the bodies since it was last asked: counts as from outside.
   virtual Reaction<Dim> take_reaction() { return {}; }
   /// When a step leaves the stresses, counted from the moment of the velocities, in steps.

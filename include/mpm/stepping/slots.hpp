@@ -32,6 +32,11 @@ struct Slots {
   std::vector<std::unique_ptr<BoundaryCondition<Dim>>> conditions{};
   std::vector<std::unique_ptr<Transport<Dim>>> transports{};
 
+  bool need_surfaces() const;
+  /// P2G of the forces on particles, of loads and of conditions that push: a partial sum, as other
+  /// node values.
+  void scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfer,
+               const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time) const;
   /// s, that all of them bear.
   double largest_step() const;
   void archive(Archive& archive);

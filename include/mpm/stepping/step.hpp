@@ -29,6 +29,7 @@ struct Step {
   Slots<Dim>& slots;
   const StepExtras& extras;
   Moment moment;
+  bool surfaces_found = false;  ///< in this step
 
   const GridTopology<Dim>& grid() const { return exchange.topology(); }
   NodeFields<Dim>& fields_of(const BodyPart<Dim>& part) const { return fields[part.body.field]; }
@@ -44,7 +45,7 @@ struct Step {
   /// F-bar, once the gradient velocities stand: the mean of their divergence around every node,
   /// over the particles by mass, is what particles take in the stress update in place of their own.
   void average_divergence();
-  /// Every field's sums become zero.
+  /// Every field's sums, and what conditions push with, become zero.
   void reset();
 
   /// One of the columns of every field.
@@ -52,15 +53,17 @@ struct Step {
   std::vector<NodeColumn> columns(std::initializer_list<ColumnOf> which) const;
   /// Mass and momentum, and the load force that particles will bring.
   std::vector<NodeColumn> sums(std::initializer_list<ColumnOf> which) const;
-  /// Once a part has moved: P2G of the loads on its particles, for the next step.
-  PassOutcome<Dim> with_loads(const BodyPart<Dim>& part, double dt, PassOutcome<Dim> moved) const
+  /// Once a part has moved: P2G of the loads and pushes on its particles, for the next step.
+  PassOutcome<Dim> with_forces(const BodyPart<Dim>& part, double dt, PassOutcome<Dim> moved) const
   {
-    slots.loads.scatter(part, transfer, grid(), fields_of(part), time() + dt);
+    slots.scatter(part, transfer, grid(), fields_of(part), time() + dt);
     return moved;
   }
 
  private:
   void refine_velocity(double dt);
+  /// Once, at the places where the step begins: what contact needs to know of the surfaces.
+  void find_surfaces();
   /// A pass that adds to the re-mapped momentum, from zero.
   using RemapPass = PassOutcome<Dim> (Transfer<Dim>::*)(const BodyPart<Dim>&,
                                                         const GridTopology<Dim>&,

@@ -18,9 +18,9 @@ struct PassOutline {
 };
 
 /// In their order. The update order itself is asked: it is run with a step that only takes notes.
-/// `load_force`: whether loads act on particles.
+/// `load_force`: whether loads act on particles; `surface`: whether contact asks for surfaces.
 template <int Dim>
 std::vector<PassOutline> outline_step(OneOf<UpdateOrderRow> order, const StepExtras& extras,
-                                      bool load_force);
+                                      bool load_force, bool surface);
 
 }  // namespace mpm

@@ -10,6 +10,7 @@
 #include <mpm/transfer/scheme.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace mpm {
@@ -45,6 +46,24 @@ class KernelPass {
       return Stencil<Dim, Shape>(x, domain, frame, shape_);
     } else {
       return Stencil<Dim, Shape>(x, frame, shape_, std::bool_constant<WithGradient>());
+    }
+  }
+
+  /// Along one axis, of a node at this distance from a particle at rest; lengths in cells.
+  double weight_along(double distance, double size) const
+  {
+    if constexpr (has_domain) {
+      const auto hat = [](double x) { return std::max(0.0, 1.0 - std::abs(x)); };
+      return 0.5 * (hat(distance - 0.5 * size) + hat(distance + 0.5 * size));
+    } else {
+      constexpr int n = Shape::support;
+      Lanes w[n], g[n];
+      // The particle stands behind node 0 of its stencil, and the node is number `node` of it.
+      const double first = std::floor(distance - shape_.base_shift());
+      const int node = -int(first);
+      if (node < 0 || node >= n) return 0;
+      shape_.weights(Lanes(distance - first), 1, w, g);
+      return w[node][0];
     }
   }
 

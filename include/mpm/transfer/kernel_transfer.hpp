@@ -43,17 +43,40 @@ class KernelTransfer final : public Transfer<Dim> {
           part, grid, fields, 0, nullptr);
   }
 
-  void load_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid, NodeFields<Dim>& fields,
-                  const typename Transfer<Dim>::BlockForce& force) const override
+  void outside_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                     const NodeColumn& column,
+                     const typename Transfer<Dim>::BlockForce& force) const override
   {
     const GridFrame<Dim> frame(grid, !part.interior);
     for (LocalIndex b = part.first; b < part.end; ++b) {
       Lanes f[Dim];
       for (Lanes& component : f) component = 0.0;
-      force(b, f);
-      scatter_force(kernel_.stencil_of(part.body.particles.motion().block(b), frame), grid, f,
-                    fields.load_force.data());
+      if (force(b, f))
+        scatter_force(kernel_.stencil_of(part.body.particles.motion().block(b), frame), grid, f,
+                      column);
     }
+  }
+
+  PassOutcome<Dim> surface(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                           NodeFields<Dim>& fields, std::span<const char> asked) const override
+  {
+    const GridFrame<Dim> frame(grid, !part.interior);
+    for (LocalIndex b = part.first; b < part.end; ++b) {
+      const double* motion = part.body.particles.motion().block(b);
+      Stencil<Dim, Shape> stencil = kernel_.stencil_of(motion, frame);
+      bool is_asked = false;
+      for (int lane = 0; lane < lane_count; ++lane)
+        is_asked = is_asked || asked[std::size_t(stencil.base[lane])];
+      if (!is_asked) continue;
+      stencil.measure_offsets(frame);
+      scatter_surface(stencil, grid, load(motion + Columns::mass * lane_count), fields);
+    }
+    return {};
+  }
+
+  double weight_along(double distance, double size) const override
+  {
+    return kernel_.weight_along(distance, size);
   }
 
   PassOutcome<Dim> refine_velocity(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,

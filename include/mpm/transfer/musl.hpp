@@ -32,7 +32,7 @@ struct Musl {
     s.exchange.move_and_sum(
         s.bodies, s.sums({&Fields::mass_column, &Fields::momentum_force_column}), s.moment, dt,
         [&](const auto& part, const auto& bounds) {
-          return s.with_loads(part, dt, stress(part, bounds));  // sigma_p, x_p; m_i, (mv)_i, f_i
+          return s.with_forces(part, dt, stress(part, bounds));  // sigma_p, x_p; m_i, (mv)_i, f_i
         });
   }
 };

@@ -241,10 +241,24 @@ class Scatter {
   MassRow mass_[rows];
 };
 
-/// Adds w f to the nodes, one after the other: loads are few.
+/// Weight of one node of a stencil; `at`: its place in the stencil along each axis.
+template <int Dim, class Shape>
+double weight_of(const Stencil<Dim, Shape>& stencil, const int (&at)[3], int lane)
+{
+  double weight = 1;
+  for (int d = 0; d < Dim; ++d) weight *= stencil.weight[d][at[d]][lane];
+  return weight;
+}
+template <int Dim, CarriesDomain Shape>
+double weight_of(const Stencil<Dim, Shape>& stencil, const int (&at)[3], int lane)
+{
+  return stencil.weight[(at[2] * Shape::support + at[1]) * Shape::support + at[0]][lane];
+}
+
+/// Adds w f to a column of the nodes, one after the other: loads are few.
 template <int Dim, class Shape>
 void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& grid,
-                   const Lanes (&force)[Dim], double* nodes)
+                   const Lanes (&force)[Dim], const NodeColumn& column)
 {
   constexpr int n = Shape::support, layers = Dim == 3 ? n : 1;
   for (int lane = 0; lane < lane_count; ++lane)
@@ -257,19 +271,45 @@ void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& 
             node += c * std::size_t(grid.stride(2));
             w *= stencil.weight[2][c][lane];
           }
-          for (int d = 0; d < Dim; ++d) nodes[node * Dim + d] += w * force[d][lane];
+          for (int d = 0; d < Dim; ++d)
+            column.values[node * column.stride + d] += w * force[d][lane];
         }
 }
 template <int Dim, CarriesDomain Shape>
 void scatter_force(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& grid,
-                   const Lanes (&force)[Dim], double* nodes)
+                   const Lanes (&force)[Dim], const NodeColumn& column)
 {
   for (int lane = 0; lane < lane_count; ++lane)
     for_each_node<Dim, Shape>(grid, [&](int k, std::size_t from_first) {
       const std::size_t node = std::size_t(stencil.base[lane]) + from_first;
       for (int d = 0; d < Dim; ++d)
-        nodes[node * Dim + d] += stencil.weight[k][lane] * force[d][lane];
+        column.values[node * column.stride + d] += stencil.weight[k][lane] * force[d][lane];
     });
+}
+
+/// Adds w m r and w m r (x) r, r = x_p - x_i, to nodes (NodeFields::surface_of): only few are asked
+/// for it.
+template <int Dim, class Shape>
+void scatter_surface(const Stencil<Dim, Shape>& stencil, const GridTopology<Dim>& grid,
+                     const Lanes& mass, NodeFields<Dim>& fields)
+{
+  constexpr int n = Shape::support, layers = Dim == 3 ? n : 1;
+  for (int lane = 0; lane < lane_count; ++lane)
+    for (int c = 0; c < layers; ++c)
+      for (int b = 0; b < n; ++b)
+        for (int a = 0; a < n; ++a) {
+          const int at[3] = {a, b, c};
+          LocalIndex node = LocalIndex(stencil.base[lane]) + a + b * grid.stride(1);
+          if constexpr (Dim == 3) node += c * grid.stride(2);
+          const double share = mass[lane] * weight_of(stencil, at, lane);
+          double* first = fields.surface_of(node);
+          double* second = first + Dim;
+          for (int i = 0; i < Dim; ++i) {
+            const double along = -share * stencil.offset[i][at[i]][lane];
+            first[i] += along;
+            for (int j = i; j < Dim; ++j) *second++ -= along * stencil.offset[j][at[j]][lane];
+          }
+        }
 }
 
 }  // namespace mpm

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace mpm {
@@ -98,10 +99,19 @@ class Transfer {
   virtual void prime(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
                      NodeFields<Dim>& fields, bool with_force) const = 0;
 
-  /// P2G of forces from outside (N), block by block, to the fields' load force.
-  using BlockForce = std::function<void(LocalIndex block, Lanes (&force)[Dim])>;
-  virtual void load_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
-                          NodeFields<Dim>& fields, const BlockForce& force) const = 0;
+  /// P2G of forces from outside (N), block by block, to a column; `force` says whether there is
+  /// any.
+  using BlockForce = std::function<bool(LocalIndex block, Lanes (&force)[Dim])>;
+  virtual void outside_force(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                             const NodeColumn& column, const BlockForce& force) const = 0;
+
+  /// P2G of what the fields' `surface` holds, of the blocks with a particle whose stencil's first
+  /// node is marked. No state changes.
+  virtual PassOutcome<Dim> surface(const BodyPart<Dim>& part, const GridTopology<Dim>& grid,
+                                   NodeFields<Dim>& fields, std::span<const char> asked) const = 0;
+  /// Of a node, by the distance of a particle along an axis; `size`: of the particle's location;
+  /// both lengths in cells.
+  virtual double weight_along(double distance, double size) const = 0;
 
   /// G2P of the residual velocity (NodeFields::refine), and its momentum back to the same nodes.
   /// No state changes.

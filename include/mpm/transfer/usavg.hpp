@@ -30,7 +30,7 @@ struct Usavg {
         s.bodies, s.sums({&Fields::mass_column, &Fields::momentum_column}), s.moment, dt,
         [&](const auto& part, const auto& bounds) {
           // sigma_p of the other half, x_p; m_i, (mv)_i
-          return s.with_loads(
+          return s.with_forces(
               part, dt, s.transfer.usavg_stress(part, s.grid(), s.fields_of(part), dt, bounds));
         });
   }

@@ -37,7 +37,7 @@ struct Usf {
         s.bodies, s.sums({&Fields::mass_column, &Fields::momentum_column}), s.moment, dt,
         [&](const auto& part, const auto& bounds) {
           // v_p, x_p; m_i, (mv)_i
-          return s.with_loads(
+          return s.with_forces(
               part, dt, s.transfer.usf_velocity(part, s.grid(), s.fields_of(part), dt, bounds));
         });
   }

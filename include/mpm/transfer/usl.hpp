@@ -24,8 +24,8 @@ struct Usl {
         s.bodies, s.sums({&Fields::mass_column, &Fields::momentum_force_column}), s.moment, dt,
         [&](const auto& part, const auto& bounds) {
           // all at once
-          return s.with_loads(part, dt,
-                              s.transfer.usl(part, s.grid(), s.fields_of(part), dt, bounds));
+          return s.with_forces(part, dt,
+                               s.transfer.usl(part, s.grid(), s.fields_of(part), dt, bounds));
         });
   }
 };

@@ -16,7 +16,7 @@ TEST_F(InputErrors, UnknownKeys)
                           "a.yaml:8:1: unknown key 'stepps' (did you mean 'steps'?)",
                           "a.yaml:9:1: unknown key 'colour' (known: title, name, material, "
                           "materials, specimen, grid, numerics, loading, free_motion, definitions, "
-                          "loads, exact_solution, steps, output)"));
+                          "loads, contact, exact_solution, steps, output)"));
 }
 
 TEST_F(InputErrors, AMisspeltRequiredKeyIsNotReportedAsMissingToo)

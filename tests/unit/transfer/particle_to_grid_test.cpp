@@ -129,14 +129,16 @@ void compare_forces_from_outside(TransferCase c)
   Cloud<Dim> cloud(c);
   std::vector<Vec<Dim>> force(cloud.count);
   for (Vec<Dim>& f : force) f = cloud.template numbers<Dim, 1>();
-  cloud.transfer->load_force(cloud.body, cloud.grid.topology, cloud.grid.fields,
-                             [&](LocalIndex block, Lanes(&values)[Dim]) {
-                               for (int d = 0; d < Dim; ++d)
-                                 values[d] = Lanes([&](int lane) {
-                                   const int p = block * lane_count + lane;
-                                   return p < cloud.count ? force[p][d] : 0.0;
-                                 });
-                             });
+  cloud.transfer->outside_force(cloud.body, cloud.grid.topology,
+                                cloud.grid.fields.load_force_column(),
+                                [&](LocalIndex block, Lanes(&values)[Dim]) {
+                                  for (int d = 0; d < Dim; ++d)
+                                    values[d] = Lanes([&](int lane) {
+                                      const int p = block * lane_count + lane;
+                                      return p < cloud.count ? force[p][d] : 0.0;
+                                    });
+                                  return true;
+                                });
   for (std::size_t i = 0; i < cloud.nodes.size(); ++i) {
     Vec<Dim> sum = Vec<Dim>::Zero();
     for (int p = 0; p < cloud.count; ++p)

@@ -1,0 +1,18 @@
+#pragma once
+/// Velocity fields of bodies, and the contact between them.
+
+#include <mpm/simulation/model.hpp>
+
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+/// Velocity field of each of these bodies: its own for one that contact names, one for all others.
+std::vector<int> fields_of_bodies(const scene::Scene& scene, const std::vector<std::string>& names);
+
+/// Gives bodies their fields, and the model the contact between them; nothing without any.
+template <int Dim>
+void add_contact(const scene::Scene& scene, const Layout<Dim>& layout, Model<Dim>& model);
+
+}  // namespace mpm

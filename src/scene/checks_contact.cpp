@@ -1,0 +1,63 @@
+#include "checks.hpp"
+#include <fmt/format.h>
+
+namespace mpm::scene {
+
+namespace {
+
+/// The two names of an entry.
+void check_names(const Checked& checked, const std::string& key,
+                 const std::vector<std::string>& between)
+{
+  if (between.size() != 2)
+    return checked.refuse(key, "contact is between two bodies", "Name two materials");
+  const std::vector<std::string> names = checked.material_names();
+  if (names.empty()) return;
+  for (std::size_t k = 0; k < between.size(); ++k) {
+    const std::string path = fmt::format("{}[{}]", key, k);
+    const auto found = std::ranges::find(names, between[k]);
+    if (found == names.end())
+      checked.refuse(path, "no material has this name", "Use " + alternatives(names));
+    else if (const std::size_t index = std::size_t(found - names.begin());
+             index < checked.scene.materials.size() &&
+             !checked.scene.materials[index].law->deformable())
+      checked.refuse(path, "it is rigid: all bodies stick to it",
+                     "Give it a law that can be deformed");
+    else if (k == 1 && between[0] == between[1])
+      checked.refuse(path, "a body moves in one velocity field and cannot touch itself",
+                     "Name another material, or use formulation: total_lagrangian");
+  }
+}
+
+bool same_pair(const BodyContact& a, const BodyContact& b)
+{
+  return std::ranges::is_permutation(a.between, b.between);
+}
+
+}  // namespace
+
+void check_contact(const Checked& checked)
+{
+  const std::vector<BodyContact>& contacts = checked.scene.contacts;
+  if (contacts.empty() || !checked.sound("contact")) return;
+  const Numerics& numerics = checked.scene.numerics;
+  if (numerics.formulation == FormulationKind::total_lagrangian)
+    checked.refuse("numerics.formulation", "it has a contact of its own, without friction",
+                   "Leave out contact, or use updated_lagrangian");
+  else if (numerics.scheme->refines)
+    checked.refuse("numerics.scheme", "refined velocities would go through the contact again",
+                   "Use scheme: flip");
+  else if (!numerics.update_order->begins_with_force)
+    checked.refuse("numerics.update_order", "stress would see velocities before contact acts",
+                   "Use update_order: musl");
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const std::string key = fmt::format("contact[{}].between", i);
+    if (!checked.sound(key)) continue;
+    check_names(checked, key, contacts[i].between);
+    for (std::size_t j = 0; j < i; ++j)
+      if (same_pair(contacts[i], contacts[j]))
+        checked.refuse(key, fmt::format("contact[{}] is between the same", j), "Remove one");
+  }
+}
+
+}  // namespace mpm::scene

@@ -1,0 +1,58 @@
+"""Walls that push, and contact between bodies, in whole runs."""
+import math
+import unittest
+
+from program import History, ProgramTest
+
+CONFINED = 50e9 * 0.7 / (1.3 * 0.4)
+GRAVITY, ANGLE, MASS = 9.81, math.radians(30), 250
+RAMP, END = 0.1, 0.8
+PUSHED = ["loading.grip=contact", "numerics.update_order=musl_displacement"]
+
+
+class Contact(ProgramTest):
+    def line_error(self, history, strains):
+        """Mean error of the stress against that of one uniform block."""
+        found = [k for k in range(1, len(history)) if strains[0] <= history["strain"][k] <= strains[1]]
+        self.assertGreater(len(found), 10)
+        exact = [-CONFINED * math.log(1 - e) / (1 - e)
+                 for e in (0.5 * (history["strain"][k] + history["strain"][k - 1]) for k in found)]
+        return sum(history["stress"][k] / e - 1 for k, e in zip(found, exact)) / len(found)
+
+    def test_a_wall_that_pushes_is_as_soft_as_its_contact_and_books_all_energy(self):
+        """Two locations over kappa at each end of the 40 of the block."""
+        for kappa, softer in ((0.5, 2 * 2 / 40), (4, 2 * 0.25 / 40)):
+            history = History(self.results("confined_block", *PUSHED, "loading.strain=1 %",
+                                           f"numerics.contact_stiffness={kappa}",
+                                           label=f"kappa_{kappa}"))
+            error = self.line_error(history, (0.004, 0.01))
+            self.assertAlmostEqual(error, 1 / (1 + softer) - 1, delta=0.015)
+            self.assertLess(max(abs(e) for e in history["energy_error"][-50:]), 0.01)
+            self.assertLess(max(history["momentum_error"]), 1e-13)
+            self.assertGreater(history["contact_energy"][-1], 0)
+
+    def test_a_block_pressed_on_another_carries_the_exact_stress(self):
+        history = History(self.results("two_blocks", ranks=2))
+        self.assertAlmostEqual(self.line_error(history, (0.004, 0.01)), 0, delta=0.02)
+        self.assertLess(max(abs(e) for e in history["energy_error"][-50:]), 0.02)
+        self.assertLess(max(history["momentum_error"]), 1e-13)
+
+    def test_a_block_slides_down_an_incline_or_stays(self):
+        for friction in (0, 0.3, 1):
+            history = History(self.results("incline", f"contact[0].friction={friction}", ranks=2,
+                                           label=f"friction_{friction}"))
+            pull = max(0.0, GRAVITY * (math.sin(ANGLE) - friction * math.cos(ANGLE)))
+            # The smooth start is worth half its time, and 0.15 a t^2 of way.
+            speed = pull * (END - RAMP / 2)
+            way = pull * ((END - RAMP) ** 2 / 2 + RAMP / 2 * (END - RAMP) + 0.15 * RAMP ** 2)
+            weight = MASS * GRAVITY * math.cos(ANGLE)
+            scale = MASS * GRAVITY * math.sin(ANGLE) * 1.5
+            self.assertAlmostEqual(history["kinetic_energy"][-1], 0.5 * MASS * speed ** 2,
+                                   delta=0.01 * scale)
+            self.assertAlmostEqual(history["friction_work"][-1], friction * weight * way,
+                                   delta=0.01 * scale)
+            self.assertLess(max(history["momentum_error"]), 1e-13)
+
+
+if __name__ == "__main__":
+    unittest.main()
