@@ -94,6 +94,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 
   SceneKeys keys;
   keys.dimensions = dimensions_of(root);
+  if (keys.dimensions == 3) keys.numerics.contact_stiffness = 0;  // a key of the plane
   Problems problems;
   const Definitions definitions = definitions_of(root, keys.dimensions);
   read_map(Given{root, "", problems, definitions}, keys, keys.dimensions);

@@ -40,7 +40,8 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 "twice this times the modulus of the fastest wave times the depth over the size of "
                 "a location is the pressure across a flush contact; 0: no contact")
           .when({[](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
-                 "formulation: total_lagrangian"}),
+                 "formulation: total_lagrangian"})
+          .in_plane(),
       member<N>("mass_scaling", &N::mass_scaling, {.bound = from_to(0, 1)},
                 "cells with a smaller least stretch are made heavier, by the square of this over "
                 "it, so that they do not shorten the step; 0: none")

@@ -1,0 +1,336 @@
+#pragma once
+/// Cells in space: bricks of eight corners, with the twelve modes that one point does not see. Each
+/// brick bends and twists as the plates that it is across its axes: their energy is that of plates
+/// without stress across, and the shear strains that these modes would bring along are left out
+/// (assumed strains; compare Belytschko & Bindeman 1993, CMAME 105:225, and Puso 2000, IJNME
+/// 49:1029). A plate or beam of one brick then bends with the exact stiffness, and a plate twists
+/// with it.
+
+#include <mpm/core/lane_matrix.hpp>
+#include <mpm/lagrangian/location_cell.hpp>
+#include <mpm/materials/space_spectrum.hpp>
+
+namespace mpm {
+
+template <>
+struct CellFrame<3> {
+  double quarter_inverse[3];  ///< 1 / (4 h), 1/m
+  double half[3];             ///< m
+  /// Of mode m: what a corner's place, with the mode's sign, gives to it: 1/m^2, the last 1/m^3.
+  double share[4];
+  double radius_squared;  ///< m^2
+
+  explicit CellFrame(const Vec<3>& size)
+      : share{0.5 / (size[1] * size[2]), 0.5 / (size[2] * size[0]), 0.5 / (size[0] * size[1]),
+              1 / size.prod()},
+        radius_squared(0.25 * size.squaredNorm())
+  {
+    for (int d = 0; d < 3; ++d) {
+      quarter_inverse[d] = 0.25 / size[d];
+      half[d] = 0.5 * size[d];
+    }
+  }
+  double inverse_volume() const { return share[3]; }  ///< 1/m^3
+};
+
+/// x = x_c + F X + a^0 Y Z + a^1 Z X + a^2 X Y + a^3 X Y Z, seen from the centre, with X, Y and Z
+/// along the edges at rest. Mode m < 3 is the one without axis m.
+template <>
+struct CellDeformation<3> {
+  static constexpr int modes = 12;
+
+  Lanes f[9];            ///< F_ij at i + 3 j
+  Lanes bending[modes];  ///< b^m = F^-1 a^m at 3 m, 1/m, the last 1/m^2
+
+  CellDeformation() = default;
+  [[gnu::always_inline]] CellDeformation(const CellCorners<3>& at, const CellFrame<3>& frame)
+  {
+    Lanes a[4][3];
+    for (int i = 0; i < 3; ++i) {
+      // Differences along the edges come first: sums of places would lose digits.
+      const auto& c = at.along[i];
+      const Lanes x[4] = {c[1] - c[0], c[3] - c[2], c[5] - c[4], c[7] - c[6]};
+      const Lanes lower = x[0] + x[1], upper = x[2] + x[3];
+      const Lanes lower_turn = x[1] - x[0], upper_turn = x[3] - x[2];
+      const Lanes y_lower = (c[2] - c[0]) + (c[3] - c[1]), y_upper = (c[6] - c[4]) + (c[7] - c[5]);
+      const Lanes z = ((c[4] - c[0]) + (c[5] - c[1])) + ((c[6] - c[2]) + (c[7] - c[3]));
+      f[i] = (lower + upper) * frame.quarter_inverse[0];
+      f[i + 3] = (y_lower + y_upper) * frame.quarter_inverse[1];
+      f[i + 6] = z * frame.quarter_inverse[2];
+      a[0][i] = (y_upper - y_lower) * frame.share[0];
+      a[1][i] = (upper - lower) * frame.share[1];
+      a[2][i] = (lower_turn + upper_turn) * frame.share[2];
+      a[3][i] = (upper_turn - lower_turn) * frame.share[3];
+    }
+    Lanes inverse[9];
+    invert<3>(f, inverse);
+    for (int m = 0; m < 4; ++m)
+      for (int i = 0; i < 3; ++i)
+        bending[3 * m + i] =
+            inverse[i] * a[m][0] + inverse[i + 3] * a[m][1] + inverse[i + 6] * a[m][2];
+  }
+  Lanes jacobian() const { return determinant<3>(f); }
+  /// A lower bound of what the edges span at a corner, of that at rest: J det(I + B), where B holds
+  /// in column j the change along axis j by the modes, and det(I + B) >= (1 - |B|)^3.
+  Lanes narrowest_corner(const CellFrame<3>& frame) const
+  {
+    Lanes squared = 0.0;
+    for (int m = 0; m < 4; ++m) {
+      const Lanes* b = bending + 3 * m;
+      const Lanes of_mode = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+      // |B| of a mode is |b| times the root of the sum of the squares of the two edges in it, or of
+      // the three products of two edges.
+      const double x = frame.half[0] * frame.half[0], y = frame.half[1] * frame.half[1],
+                   z = frame.half[2] * frame.half[2];
+      const double radius =
+          m < 3 ? frame.radius_squared - frame.half[m] * frame.half[m] : x * y + y * z + z * x;
+      squared += 4 * radius * of_mode;  // (sum of four)^2 <= 4 sum of squares
+    }
+    const Lanes least = stdx::max(1.0 - stdx::sqrt(squared), Lanes(0.0));
+    return jacobian() * least * least * least;
+  }
+  /// L = rate (F F_old^-1 - I), nine columns.
+  [[gnu::always_inline]] void put_gradient(const double* old_columns, double rate,
+                                           double* gradient) const
+  {
+    Lanes old[9], inverse[9];
+    for (int k = 0; k < 9; ++k) old[k] = column(old_columns, k);
+    invert<3>(old, inverse);
+    for (int i = 0; i < 3; ++i) {
+      const Lanes d[3] = {rate * (f[i] - old[i]), rate * (f[i + 3] - old[i + 3]),
+                          rate * (f[i + 6] - old[i + 6])};
+      for (int j = 0; j < 3; ++j)
+        store(d[0] * inverse[3 * j] + d[1] * inverse[3 * j + 1] + d[2] * inverse[3 * j + 2],
+              gradient + (i + 3 * j) * lane_count);
+    }
+  }
+};
+
+/// Across axis j a brick is a plate, whose fibres along the other two axes i and k are strained in
+/// proportion to the distance from its middle, by b^k_i and b^i_k, and which is twisted by
+/// b^i_i + b^k_k. What its outermost fibres are strained by stands for each mode: their sum, their
+/// difference and the shear for each axis, then what X Y Z strains the edges by along each axis.
+template <>
+class CellBending<3> {
+ public:
+  static constexpr int modes = CellDeformation<3>::modes;
+
+  CellBending(const BendingModuli<3>& moduli, const Vec<3>& size)
+      : moduli_(moduli), half_{0.5 * size[0], 0.5 * size[1], 0.5 * size[2]}
+  {
+  }
+  static Column plastic_column() { return {"plastic_bending", modes, "1"}; }
+
+  /// For the law, as in bending.hpp. `plastic`: columns of what is plastic of the strains, or null.
+  [[gnu::always_inline]] void put_trial(const Lanes (&bent)[modes], const double* plastic,
+                                        const Lanes& volume, double* columns) const
+  {
+    const Squares squares(elastic_strains(bent, plastic));
+    // A plate that yields all through bears 3/2 of what its outermost fibres would bear
+    // elastically, fibres that are warped along either edge 9/4.
+    store(moduli_.alike * moduli_.alike * squares.alike / 9.0, columns);
+    store(moduli_.opposite * moduli_.opposite * squares.opposite / 3.0 +
+              moduli_.fibres * moduli_.fibres * squares.warping * (16.0 / 81.0),
+          columns + lane_count);
+    store(volume * alike_energy(squares), columns + 2 * lane_count);
+    store(volume * other_energy(squares), columns + 3 * lane_count);
+  }
+  /// Once the law has put shares in place of the squares: dW/db at 3 m, J m and J m^2, and what is
+  /// plastic.
+  [[gnu::always_inline]] void moments(const Lanes (&bent)[modes], const double* columns,
+                                      const Lanes& volume, double* plastic,
+                                      Lanes (&moment)[modes]) const
+  {
+    Strains elastic = elastic_strains(bent, plastic);
+    if (plastic) {
+      const Lanes alike_share = load(columns), other_share = load(columns + lane_count);
+      for (int k = 0; k < modes; ++k) {
+        const Lanes& share = is_alike(k) ? alike_share : other_share;
+        double* of_mode = plastic + k * lane_count;
+        const Lanes lost = elastic.of[k] * (1.0 - share);
+        store(load(of_mode) + lost, of_mode);
+        elastic.of[k] -= lost;
+      }
+    }
+    for (int m = 0; m < modes; ++m) moment[m] = 0.0;
+    for (int j = 0; j < 3; ++j) {
+      const int i = (j + 1) % 3, k = (j + 2) % 3;
+      const Lanes* strain = elastic.of + 3 * j;
+      const Lanes unit = volume * (half_[j] / 6.0);
+      const Lanes alike = unit * moduli_.alike * strain[0],
+                  opposite = unit * moduli_.opposite * strain[1],
+                  twist = unit * moduli_.opposite * strain[2];
+      moment[3 * k + i] += alike + opposite;
+      moment[3 * i + k] += alike - opposite;
+      moment[3 * i + i] += twist;
+      moment[3 * k + k] += twist;
+      moment[9 + j] = volume * (moduli_.fibres * half_[i] * half_[k] / 9.0) * elastic.of[9 + j];
+    }
+  }
+  /// J
+  void add_energy(const Lanes (&bent)[modes], const double* plastic, const Lanes& volume,
+                  Lanes& sum) const
+  {
+    const Squares squares(elastic_strains(bent, plastic));
+    sum += volume * (alike_energy(squares) + other_energy(squares));
+  }
+
+ private:
+  struct Strains {
+    Lanes of[modes];
+  };
+  static constexpr bool is_alike(int k) { return k < 9 && k % 3 == 0; }
+  /// Sums over the axes.
+  struct Squares {
+    Lanes alike = 0.0, opposite = 0.0, warping = 0.0;
+    [[gnu::always_inline]] explicit Squares(const Strains& strains)
+    {
+      for (int j = 0; j < 3; ++j) {
+        const Lanes* s = strains.of + 3 * j;
+        alike += s[0] * s[0];
+        opposite += s[1] * s[1] + s[2] * s[2];
+        warping += strains.of[9 + j] * strains.of[9 + j];
+      }
+    }
+  };
+  [[gnu::always_inline]] Strains elastic_strains(const Lanes (&bent)[modes],
+                                                 const double* plastic) const
+  {
+    Strains strains;
+    for (int j = 0; j < 3; ++j) {
+      const int i = (j + 1) % 3, k = (j + 2) % 3;
+      const Lanes first = half_[j] * bent[3 * k + i], second = half_[j] * bent[3 * i + k];
+      strains.of[3 * j] = first + second;
+      strains.of[3 * j + 1] = first - second;
+      strains.of[3 * j + 2] = half_[j] * (bent[3 * i + i] + bent[3 * k + k]);
+      strains.of[9 + j] = half_[i] * half_[k] * bent[9 + j];
+    }
+    if (plastic)
+      for (int k = 0; k < modes; ++k) strains.of[k] -= column(plastic, k);
+    return strains;
+  }
+  /// Pa
+  Lanes alike_energy(const Squares& squares) const { return moduli_.alike / 12 * squares.alike; }
+  Lanes other_energy(const Squares& squares) const
+  {
+    return moduli_.opposite / 12 * squares.opposite + moduli_.fibres / 18 * squares.warping;
+  }
+
+  BendingModuli<3> moduli_;
+  double half_[3];  ///< m
+};
+
+/// On the corners, from V0 tau {xx, yy, zz, xy, yz, xz} at the centre, J, and M^m = dW/db^m:
+///   k^m = F^-T M^m ;  S = V0 tau F^-T - sum_m k^m (x) b^m ;
+///   f_i = - S grad0 N_i - sum_m k^m e^m_i c_m
+/// with the corners' signs e^m in mode m, and c_m their share of it. The gradient of W(F) + W(b).
+[[gnu::always_inline]] inline CellCorners<3> corner_forces(const CellDeformation<3>& deformation,
+                                                           const Lanes (&force_stress)[6],
+                                                           const Lanes (&moment)[12],
+                                                           const CellFrame<3>& frame)
+{
+  Lanes inverse[9];
+  invert<3>(deformation.f, inverse);
+  const Lanes(&t)[6] = force_stress;
+  const Lanes tau[3][3] = {{t[0], t[3], t[5]}, {t[3], t[1], t[4]}, {t[5], t[4], t[2]}};
+  const Lanes(&b)[12] = deformation.bending;
+  CellCorners<3> force;
+  for (int i = 0; i < 3; ++i) {
+    Lanes k[4], s[3];
+    for (int m = 0; m < 4; ++m)
+      k[m] = inverse[3 * i] * moment[3 * m] + inverse[3 * i + 1] * moment[3 * m + 1] +
+             inverse[3 * i + 2] * moment[3 * m + 2];
+    for (int j = 0; j < 3; ++j) {
+      s[j] = tau[i][0] * inverse[j] + tau[i][1] * inverse[j + 3] + tau[i][2] * inverse[j + 6];
+      for (int m = 0; m < 4; ++m) s[j] -= k[m] * b[3 * m + j];
+      s[j] *= frame.quarter_inverse[j];
+    }
+    for (int m = 0; m < 4; ++m) k[m] *= frame.share[m];
+    // Corner by corner: signs of x, then of y, then of z, each on what does not hold it and does.
+    const Lanes plain[2] = {-s[0], s[0]}, y[2] = {s[1] - k[2], s[1] + k[2]},
+                z[2] = {s[2] - k[1], s[2] + k[1]}, yz[2] = {k[0] - k[3], k[0] + k[3]};
+    for (int x = 0; x < 2; ++x) {
+      const Lanes lower = plain[x] - y[x], upper = plain[x] + y[x];
+      const Lanes turn_lower = z[x] - yz[x], turn_upper = z[x] + yz[x];
+      force.along[i][x] = turn_lower - lower;
+      force.along[i][x + 2] = turn_upper - upper;
+      force.along[i][x + 4] = -lower - turn_lower;
+      force.along[i][x + 6] = -upper - turn_upper;
+    }
+  }
+  return force;
+}
+
+/// Square of the least stretch of the middle.
+inline Lanes least_stretch_squared(const CellDeformation<3>& now)
+{
+  const auto at = [&](int i, int j) {
+    return now.f[3 * i] * now.f[3 * j] + now.f[3 * i + 1] * now.f[3 * j + 1] +
+           now.f[3 * i + 2] * now.f[3 * j + 2];
+  };
+  return Spectrum({at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)}).least();
+}
+
+namespace brick_detail {
+
+/// The edges at a corner, each towards the upper end of its axis, m.
+struct CornerEdges {
+  Lanes edge[9];  ///< component i of that along axis j at i + 3 j
+
+  [[gnu::always_inline]] CornerEdges(const CellCorners<3>& at, int corner)
+  {
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i)
+        edge[i + 3 * j] = at.along[i][corner | 1 << j] - at.along[i][corner & ~(1 << j)];
+  }
+  /// What they span, of the volume at rest.
+  [[gnu::always_inline]] Lanes share(const CellFrame<3>& frame) const
+  {
+    return determinant<3>(edge) * frame.inverse_volume();
+  }
+  [[gnu::always_inline]] Lanes gap(const CellFrame<3>& frame) const
+  {
+    return stdx::max(least_corner - share(frame), Lanes(0.0));
+  }
+};
+
+}  // namespace brick_detail
+
+/// What the edges span at the narrowest corner, of the volume at rest.
+inline Lanes narrowest_share(const CellCorners<3>& at, const CellFrame<3>& frame)
+{
+  Lanes least = brick_detail::CornerEdges(at, 0).share(frame);
+  for (int corner = 1; corner < CellCorners<3>::count; ++corner)
+    least = stdx::min(least, brick_detail::CornerEdges(at, corner).share(frame));
+  return least;
+}
+
+/// As in the plane, with the volume that a corner's edges span.
+inline Lanes corner_energy(const CellCorners<3>& at, const Lanes& stiffness,
+                           const CellFrame<3>& frame)
+{
+  Lanes energy = 0.0;
+  for (int corner = 0; corner < CellCorners<3>::count; ++corner) {
+    const Lanes gap = brick_detail::CornerEdges(at, corner).gap(frame);
+    energy += 0.5 * stiffness * gap * gap;
+  }
+  return energy;
+}
+
+/// Adds minus its derivative.
+inline void add_corner_forces(const CellCorners<3>& at, const Lanes& stiffness,
+                              const CellFrame<3>& frame, CellCorners<3>& force)
+{
+  for (int corner = 0; corner < CellCorners<3>::count; ++corner) {
+    const brick_detail::CornerEdges edges(at, corner);
+    const Lanes push = stiffness * frame.inverse_volume() * edges.gap(frame);
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        const Lanes f = push * cofactor<3>(edges.edge, i, j);
+        force.along[i][corner | 1 << j] += f;
+        force.along[i][corner & ~(1 << j)] -= f;
+      }
+  }
+}
+
+}  // namespace mpm
