@@ -1,7 +1,9 @@
+#include <mpm/core/transpose.hpp>
 #include <mpm/lagrangian/location_cells.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace mpm {
 
@@ -9,8 +11,6 @@ namespace {
 
 template <int Dim>
 constexpr int stress_columns = symmetric_components<Dim>;
-template <int Dim>
-constexpr int modes = CellBending<Dim>::modes;
 
 /// What the edges of the narrowest corner span over what they would without bending.
 [[gnu::always_inline]] inline Lanes bent_share(const CellDeformation<2>& now, const CellCorners<2>&,
@@ -69,15 +69,28 @@ template <int Dim>
 [[gnu::always_inline]] inline CellCorners<Dim> LocationCells<Dim>::corners(
     const MeshNodes<Dim>& nodes, LocalIndex block) const
 {
-  alignas(lane_alignment) double places[Dim][corners_of_cell * lane_count];
   const LocalIndex* node = &corner_nodes_[std::size_t(block) * corners_of_cell * lane_count];
-  const double* along[Dim];
-  for (int d = 0; d < Dim; ++d) along[d] = nodes.along(d);
-  for (int k = 0; k < corners_of_cell * lane_count; ++k)
-    for (int d = 0; d < Dim; ++d) places[d][k] = along[d][node[k]];
   CellCorners<Dim> at;
-  for (int d = 0; d < Dim; ++d)
-    for (int c = 0; c < corners_of_cell; ++c) at.along[d][c] = column(places[d], c);
+  if constexpr (MeshNodes<Dim>::stride == 1) {
+    alignas(lane_alignment) double places[Dim][corners_of_cell * lane_count];
+    const double* along[Dim];
+    for (int d = 0; d < Dim; ++d) along[d] = nodes.along(d);
+    for (int k = 0; k < corners_of_cell * lane_count; ++k)
+      for (int d = 0; d < Dim; ++d) places[d][k] = along[d][node[k]];
+    for (int d = 0; d < Dim; ++d)
+      for (int c = 0; c < corners_of_cell; ++c) at.along[d][c] = column(places[d], c);
+  } else {
+    constexpr std::size_t width = MeshNodes<Dim>::stride;
+    alignas(lane_alignment) double rows[lane_count * width];
+    for (int c = 0; c < corners_of_cell; ++c, node += lane_count) {
+      for (int lane = 0; lane < lane_count; ++lane)
+        std::memcpy(rows + std::size_t(lane) * width,
+                    nodes.along(0) + std::size_t(node[lane]) * width, width * sizeof(double));
+      Lanes columns[width];
+      to_columns(rows, width, columns);
+      for (int d = 0; d < Dim; ++d) at.along[d][c] = columns[d];
+    }
+  }
   return at;
 }
 
@@ -89,15 +102,16 @@ struct LocationCells<Dim>::Chunk {
   alignas(lane_alignment) double stress[blocks * stress_columns<Dim> * lane_count];
   /// As Law::update_bent has it.
   alignas(lane_alignment) double bending[blocks * bending_columns<Dim> * lane_count];
-  alignas(lane_alignment) double bent[blocks * modes<Dim> * lane_count];  ///< 1/m, of the cells
+  /// Of the cells' deformation.
+  alignas(lane_alignment) double kept[blocks * CellDeformation<Dim>::kept * lane_count];
   bool narrow[blocks];  ///< whether a corner is held
 
   double* gradient_of(int k) { return gradient + k * Dim * Dim * lane_count; }
   const double* stress_of(int k) const { return stress + k * stress_columns<Dim> * lane_count; }
   double* bending_of(int k) { return bending + k * bending_columns<Dim> * lane_count; }
   const double* bending_of(int k) const { return bending + k * bending_columns<Dim> * lane_count; }
-  double* bent_of(int k) { return bent + k * modes<Dim> * lane_count; }
-  const double* bent_of(int k) const { return bent + k * modes<Dim> * lane_count; }
+  double* kept_of(int k) { return kept + k * CellDeformation<Dim>::kept * lane_count; }
+  const double* kept_of(int k) const { return kept + k * CellDeformation<Dim>::kept * lane_count; }
 };
 
 /// Deformation, its rate and bending of one block. Returns J.
@@ -112,7 +126,7 @@ template <int Dim>
   double* f = motion + deformation_ * lane_count;
   now.put_gradient(f, rate, chunk.gradient_of(k));
   for (int j = 0; j < Dim * Dim; ++j) store(now.f[j], f + j * lane_count);
-  for (int j = 0; j < modes<Dim>; ++j) store(now.bending[j], chunk.bent_of(k) + j * lane_count);
+  now.keep(chunk.kept_of(k));
   bending_.put_trial(now.bending, plastic_of(motion), volume, chunk.bending_of(k));
   chunk.narrow[k] = stdx::any_of(now.narrowest_corner(frame_) < least_corner);
   return now.jacobian();
@@ -126,10 +140,8 @@ template <int Dim>
 {
   double* motion = cells.motion().block(block);
   const Lanes volume = load(cells.state().block(block));
-  CellDeformation<Dim> now;
-  for (int j = 0; j < Dim * Dim; ++j) now.f[j] = column(motion, deformation_ + j);
-  for (int j = 0; j < modes<Dim>; ++j) now.bending[j] = column(chunk.bent_of(k), j);
-  Lanes moment[modes<Dim>];
+  const CellDeformation<Dim> now(motion + deformation_ * lane_count, chunk.kept_of(k));
+  Lanes moment[CellBending<Dim>::modes];
   bending_.moments(now.bending, chunk.bending_of(k), volume, plastic_of(motion), moment);
   Lanes tau[stress_columns<Dim>];
   for (int j = 0; j < stress_columns<Dim>; ++j) tau[j] = column(chunk.stress_of(k), j);
@@ -137,7 +149,12 @@ template <int Dim>
   if (chunk.narrow[k]) [[unlikely]]
     add_corner_forces(corners(nodes, block), corner_modulus_ * volume, frame_, force);
   for (int c = 0; c < corners_of_cell; ++c)
-    for (int d = 0; d < Dim; ++d) store(force.along[d][c], out + (Dim * c + d) * lane_count);
+    if constexpr (Dim == 2)
+      for (int d = 0; d < 2; ++d)
+        store(force.along[d][c], out + place_of_force(c, 0) + d * force_stride);
+    else
+      to_rows(force.along[0][c], force.along[1][c], force.along[2][c], Lanes(0.0),
+              out + place_of_force(c, 0), 4);
 }
 
 template <int Dim>
@@ -193,7 +210,7 @@ void LocationCells<Dim>::fill_motion(Body<Dim>& body, const MeshNodes<Dim>& node
     for (int d = 0; d < Dim; ++d) {
       double place = 0, speed = 0;
       for (int c = 0; c < corners_of_cell; ++c) {
-        place += nodes.along(d)[node[c * lane_count]];
+        place += nodes.along(d)[std::size_t(node[c * lane_count]) * MeshNodes<Dim>::stride];
         speed += fields.updated[std::size_t(node[c * lane_count]) * width + std::size_t(d)];
       }
       motion(position + d, p) = place / corners_of_cell;

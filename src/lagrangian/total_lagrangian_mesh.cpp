@@ -118,7 +118,7 @@ void TotalLagrangian<Dim>::list_node_terms()
     first_force_.push_back(values);
     values += std::size_t(body.particles.blocks()) * LocationCells<Dim>::block_values;
   }
-  cell_forces_.assign(values + Dim * lane_count, 0.0);
+  cell_forces_.assign(values + LocationCells<Dim>::block_values, 0.0);
   const auto groups = std::size_t((nodes_->size() + lane_count - 1) / lane_count);
   node_terms_.assign(groups * corners * lane_count, std::int32_t(values));
   std::vector<int> filled(std::size_t(nodes_->size()), 0);
@@ -131,7 +131,7 @@ void TotalLagrangian<Dim>::list_node_terms()
         const auto slot = std::size_t(filled[node]++);
         node_terms_[(node / lane_count * corners + slot) * lane_count + node % lane_count] =
             std::int32_t(first_force_[b] + block * LocationCells<Dim>::block_values +
-                         Dim * std::size_t(c) * lane_count + lane);
+                         std::size_t(LocationCells<Dim>::place_of_force(c, int(lane))));
       }
 }
 

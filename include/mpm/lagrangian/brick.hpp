@@ -8,7 +8,7 @@
 
 #include <mpm/core/lane_matrix.hpp>
 #include <mpm/lagrangian/location_cell.hpp>
-#include <mpm/materials/space_spectrum.hpp>
+#include <mpm/materials/space_tensor.hpp>
 
 namespace mpm {
 
@@ -40,9 +40,22 @@ struct CellDeformation<3> {
   static constexpr int modes = 12;
 
   Lanes f[9];            ///< F_ij at i + 3 j
+  Lanes inverse[9];      ///< of F
   Lanes bending[modes];  ///< b^m = F^-1 a^m at 3 m, 1/m, the last 1/m^2
 
-  CellDeformation() = default;
+  /// From columns of F and of what `keep` wrote.
+  static constexpr int kept = modes + 9;
+  [[gnu::always_inline]] CellDeformation(const double* gradient, const double* columns)
+  {
+    for (int k = 0; k < 9; ++k) f[k] = column(gradient, k);
+    for (int k = 0; k < modes; ++k) bending[k] = column(columns, k);
+    for (int k = 0; k < 9; ++k) inverse[k] = column(columns, modes + k);
+  }
+  [[gnu::always_inline]] void keep(double* columns) const
+  {
+    for (int k = 0; k < modes; ++k) store(bending[k], columns + k * lane_count);
+    for (int k = 0; k < 9; ++k) store(inverse[k], columns + (modes + k) * lane_count);
+  }
   [[gnu::always_inline]] CellDeformation(const CellCorners<3>& at, const CellFrame<3>& frame)
   {
     Lanes a[4][3];
@@ -62,7 +75,6 @@ struct CellDeformation<3> {
       a[2][i] = (lower_turn + upper_turn) * frame.share[2];
       a[3][i] = (upper_turn - lower_turn) * frame.share[3];
     }
-    Lanes inverse[9];
     invert<3>(f, inverse);
     for (int m = 0; m < 4; ++m)
       for (int i = 0; i < 3; ++i)
@@ -229,8 +241,7 @@ class CellBending<3> {
                                                            const Lanes (&moment)[12],
                                                            const CellFrame<3>& frame)
 {
-  Lanes inverse[9];
-  invert<3>(deformation.f, inverse);
+  const Lanes(&inverse)[9] = deformation.inverse;
   const Lanes(&t)[6] = force_stress;
   const Lanes tau[3][3] = {{t[0], t[3], t[5]}, {t[3], t[1], t[4]}, {t[5], t[4], t[2]}};
   const Lanes(&b)[12] = deformation.bending;
@@ -261,14 +272,28 @@ class CellBending<3> {
   return force;
 }
 
-/// Square of the least stretch of the middle.
+/// Square of the least stretch of the middle: the least eigenvalue of F^T F.
 inline Lanes least_stretch_squared(const CellDeformation<3>& now)
 {
   const auto at = [&](int i, int j) {
     return now.f[3 * i] * now.f[3 * j] + now.f[3 * i + 1] * now.f[3 * j + 1] +
            now.f[3 * i + 2] * now.f[3 * j + 2];
   };
-  return Spectrum({at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)}).least();
+  const Symmetric c{at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)};
+  const Lanes jacobian = now.jacobian();
+  const Lanes one = c.trace(), two = 0.5 * (one * one - c.squared()), three = jacobian * jacobian;
+  // Laguerre's method for l^3 - one l^2 + two l - three from below the least root, which it does
+  // not pass; the third step is below rounding errors of the sums.
+  Lanes least = three / two;
+  for (int iteration = 0; iteration < 3; ++iteration) {
+    const Lanes value = ((least - one) * least + two) * least - three,
+                slope = (3.0 * least - 2.0 * one) * least + two, curved = 6.0 * least - 2.0 * one;
+    const Lanes root =
+        stdx::sqrt(stdx::max(4.0 * slope * slope - 6.0 * value * curved, Lanes(0.0)));
+    const Lanes below = slope + root;
+    least -= select(below > 0.0, 3.0 * value / select(below > 0.0, below, Lanes(1.0)), Lanes(0.0));
+  }
+  return least;
 }
 
 namespace brick_detail {

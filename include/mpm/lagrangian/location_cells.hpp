@@ -21,9 +21,15 @@ class LocationCells {
 
  public:
   using CellNodes = std::array<LocalIndex, std::size_t(corners_of_cell)>;
-  /// Values that the forces of one block take: component d of corner c of lane l stands at
-  /// (Dim c + d) * lane_count + l.
-  static constexpr int block_values = Dim * corners_of_cell * lane_count;
+  /// Of corner c of lane l the x component of its force stands at place_of_force(c, l) in its
+  /// block, the others each `force_stride` farther: columns in the plane, in space rows of four.
+  static constexpr int force_stride = Dim == 2 ? lane_count : 1;
+  static constexpr int place_of_force(int corner, int lane)
+  {
+    return Dim == 2 ? 2 * corner * lane_count + lane : 4 * (corner * lane_count + lane);
+  }
+  /// Values that the forces of one block take.
+  static constexpr int block_values = place_of_force(corners_of_cell, 0);
 
   /// `nodes` of each of the body's cells, in the order of its particles; `size` of a cell, m.
   LocationCells(const Body<Dim>& body, std::span<const CellNodes> nodes, const Vec<Dim>& size);

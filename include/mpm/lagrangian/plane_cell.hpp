@@ -30,7 +30,17 @@ struct CellDeformation<2> {
   /// b = F^-1 a, 1/m: fibres along axis j are strained by b_j times the distance
   Lanes bending[modes];
 
-  CellDeformation() = default;
+  /// From columns of F and of what `keep` wrote.
+  static constexpr int kept = modes;
+  [[gnu::always_inline]] CellDeformation(const double* gradient, const double* columns)
+  {
+    for (int k = 0; k < 4; ++k) f[k] = column(gradient, k);
+    for (int j = 0; j < modes; ++j) bending[j] = column(columns, j);
+  }
+  [[gnu::always_inline]] void keep(double* columns) const
+  {
+    for (int j = 0; j < modes; ++j) store(bending[j], columns + j * lane_count);
+  }
   [[gnu::always_inline]] CellDeformation(const CellCorners<2>& at, const CellFrame<2>& frame)
   {
     Lanes twist[2];

@@ -41,7 +41,8 @@ class LedBrick {
   {
     BrickPlaces force;
     for (int c = 0; c < 8; ++c)
-      for (int d = 0; d < 3; ++d) force(d, c) = forces_[std::size_t((3 * c + d) * lane_count)];
+      for (int d = 0; d < 3; ++d)
+        force(d, c) = forces_[std::size_t(LocationCells<3>::place_of_force(c, 0) + d)];
     return force;
   }
   /// In one step. Returns whether the brick is the right way out.
