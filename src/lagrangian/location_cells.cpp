@@ -132,11 +132,37 @@ template <int Dim>
   return now.jacobian();
 }
 
+template <int Dim>
+[[gnu::always_inline]] inline void LocationCells<Dim>::put_forces(const CellCorners<Dim>& force,
+                                                                  LocalIndex block,
+                                                                  Forces forces) const
+{
+  if constexpr (Dim == 2) {
+    double* out = forces + std::size_t(block) * block_values;
+    for (int c = 0; c < corners_of_cell; ++c)
+      for (int d = 0; d < 2; ++d) store(force.along[d][c], out + (2 * c + d) * lane_count);
+  } else {
+    using Row = Record<4>;
+    alignas(lane_alignment) double rows[lane_count * 4];
+    const LocalIndex* node = &corner_nodes_[std::size_t(block) * corners_of_cell * lane_count];
+    for (int c = 0; c < corners_of_cell; ++c, node += lane_count) {
+      // The fourth value is added to the mass, which stands behind the force.
+      to_rows(force.along[0][c], force.along[1][c], force.along[2][c], Lanes(0.0), rows, 4);
+      for (int lane = 0; lane < lane_count; ++lane) {
+        double* sum = forces->force_of(node[lane]);
+        const Row with =
+            Row(sum, stdx::element_aligned) + Row(rows + 4 * lane, stdx::vector_aligned);
+        with.copy_to(sum, stdx::element_aligned);
+      }
+    }
+  }
+}
+
 /// Forces of one block on its corners, once the law has spoken.
 template <int Dim>
 [[gnu::flatten]] void LocationCells<Dim>::push(ParticleStore& cells, LocalIndex block,
                                                const MeshNodes<Dim>& nodes, const Chunk& chunk,
-                                               int k, double* out) const
+                                               int k, Forces forces) const
 {
   double* motion = cells.motion().block(block);
   const Lanes volume = load(cells.state().block(block));
@@ -148,18 +174,12 @@ template <int Dim>
   CellCorners<Dim> force = corner_forces(now, tau, moment, frame_);
   if (chunk.narrow[k]) [[unlikely]]
     add_corner_forces(corners(nodes, block), corner_modulus_ * volume, frame_, force);
-  for (int c = 0; c < corners_of_cell; ++c)
-    if constexpr (Dim == 2)
-      for (int d = 0; d < 2; ++d)
-        store(force.along[d][c], out + place_of_force(c, 0) + d * force_stride);
-    else
-      to_rows(force.along[0][c], force.along[1][c], force.along[2][c], Lanes(0.0),
-              out + place_of_force(c, 0), 4);
+  put_forces(force, block, forces);
 }
 
 template <int Dim>
 auto LocationCells<Dim>::update(Body<Dim>& body, const MeshNodes<Dim>& nodes, double dt,
-                                double* forces) const -> std::optional<Inverted>
+                                Forces forces) const -> std::optional<Inverted>
 {
   Chunk chunk;
   std::optional<Inverted> inverted;
@@ -177,8 +197,7 @@ auto LocationCells<Dim>::update(Body<Dim>& body, const MeshNodes<Dim>& nodes, do
     }
     body.law->update_bent(cells.state().block(first), count, chunk.gradient, dt, chunk.stress,
                           chunk.bending);
-    for (int k = 0; k < count; ++k)
-      push(cells, first + k, nodes, chunk, k, forces + std::size_t(first + k) * block_values);
+    for (int k = 0; k < count; ++k) push(cells, first + k, nodes, chunk, k, forces);
   }
   return inverted;
 }

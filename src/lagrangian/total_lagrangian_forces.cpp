@@ -9,10 +9,17 @@ namespace mpm {
 template <int Dim>
 void TotalLagrangian<Dim>::add_forces(double dt)
 {
+  if constexpr (Dim == 3)
+    for (LocalIndex node = 0; node < nodes_->size(); ++node)
+      std::fill_n(fields_->force_of(node), Dim, 0.0);
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     Body<Dim>& body = setup_.bodies[b];
-    const auto inverted =
-        cells_[b].update(body, *nodes_, dt, cell_forces_.data() + first_force_[b]);
+    typename LocationCells<Dim>::Forces forces{};
+    if constexpr (Dim == 2)
+      forces = cell_forces_.data() + first_force_[b];
+    else
+      forces = &*fields_;
+    const auto inverted = cells_[b].update(body, *nodes_, dt, forces);
     if (!inverted || loss_) continue;
     cells_[b].fill_motion(body, *nodes_, *fields_);
     LostParticle<Dim> lost = lost_particle<Dim>(body.particles, inverted->cell);
@@ -20,7 +27,7 @@ void TotalLagrangian<Dim>::add_forces(double dt)
     lost.ratio = inverted->jacobian;
     loss_ = Loss<Dim>{lost, body.name, {steps_, time_ - dt}};
   }
-  gather_cell_forces();
+  if constexpr (Dim == 2) gather_cell_forces();
   if (contact_) {
     contact_->measure(*nodes_);
     contact_->add_forces(*fields_);
@@ -39,30 +46,16 @@ void TotalLagrangian<Dim>::gather_cell_forces()
   const double* forces = cell_forces_.data();
   const std::int32_t* term = node_terms_.data();
   for (LocalIndex first = 0; first < nodes_->size(); first += lane_count) {
-    const int count = std::min<LocalIndex>(lane_count, nodes_->size() - first);
-    if constexpr (Dim == 3) {
-      // A row is one load.
-      for (int lane = 0; lane < count; ++lane) {
-        const auto row = [&](int corner) {
-          return Record<4>(forces + term[corner * lane_count + lane], stdx::vector_aligned);
-        };
-        Record<4> sum = row(0);
-        for (int c = 1; c < corners; ++c) sum += row(c);
-        for (int d = 0; d < Dim; ++d) fields_->force_of(first + lane)[d] = sum[d];
-      }
-      term += corners * lane_count;
-      continue;
-    }
     alignas(lane_alignment) double terms[Dim][corners * lane_count];
     for (int k = 0; k < corners * lane_count; ++k)
-      for (int d = 0; d < Dim; ++d)
-        terms[d][k] = forces[term[k] + d * LocationCells<Dim>::force_stride];
+      for (int d = 0; d < Dim; ++d) terms[d][k] = forces[term[k] + d * lane_count];
     term += corners * lane_count;
     Lanes sum[Dim];
     for (int d = 0; d < Dim; ++d) {
       sum[d] = load(terms[d]);
       for (int c = 1; c < corners; ++c) sum[d] += load(terms[d] + c * lane_count);
     }
+    const int count = std::min<LocalIndex>(lane_count, nodes_->size() - first);
     for (int lane = 0; lane < count; ++lane)
       for (int d = 0; d < Dim; ++d) fields_->force_of(first + lane)[d] = sum[d][lane];
   }

@@ -105,7 +105,7 @@ void TotalLagrangian<Dim>::make_mesh()
     cells_.emplace_back(body, std::span(mesh.cells).subspan(first, count), setup_.location_size);
     first += count;
   }
-  list_node_terms();
+  if constexpr (Dim == 2) list_node_terms();
   if (setup_.contact_stiffness > 0) make_contact(mesh.cells, rank_of);
 }
 
@@ -118,7 +118,7 @@ void TotalLagrangian<Dim>::list_node_terms()
     first_force_.push_back(values);
     values += std::size_t(body.particles.blocks()) * LocationCells<Dim>::block_values;
   }
-  cell_forces_.assign(values + LocationCells<Dim>::block_values, 0.0);
+  cell_forces_.assign(values + Dim * lane_count, 0.0);
   const auto groups = std::size_t((nodes_->size() + lane_count - 1) / lane_count);
   node_terms_.assign(groups * corners * lane_count, std::int32_t(values));
   std::vector<int> filled(std::size_t(nodes_->size()), 0);
@@ -131,7 +131,7 @@ void TotalLagrangian<Dim>::list_node_terms()
         const auto slot = std::size_t(filled[node]++);
         node_terms_[(node / lane_count * corners + slot) * lane_count + node % lane_count] =
             std::int32_t(first_force_[b] + block * LocationCells<Dim>::block_values +
-                         std::size_t(LocationCells<Dim>::place_of_force(c, int(lane))));
+                         Dim * std::size_t(c) * lane_count + lane);
       }
 }
 

@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace mpm {
@@ -21,15 +22,12 @@ class LocationCells {
 
  public:
   using CellNodes = std::array<LocalIndex, std::size_t(corners_of_cell)>;
-  /// Of corner c of lane l the x component of its force stands at place_of_force(c, l) in its
-  /// block, the others each `force_stride` farther: columns in the plane, in space rows of four.
-  static constexpr int force_stride = Dim == 2 ? lane_count : 1;
-  static constexpr int place_of_force(int corner, int lane)
-  {
-    return Dim == 2 ? 2 * corner * lane_count + lane : 4 * (corner * lane_count + lane);
-  }
-  /// Values that the forces of one block take.
-  static constexpr int block_values = place_of_force(corners_of_cell, 0);
+  /// Where forces go, N. In the plane to [blocks * block_values], each cell's apart, for nodes that
+  /// gather them in lanes: component d of corner c of lane l at (2 c + d) * lane_count + l. In
+  /// space that would be as much memory to go through as all else together: they are added to the
+  /// nodes'.
+  using Forces = std::conditional_t<Dim == 2, double*, NodeFields<Dim>*>;
+  static constexpr int block_values = Dim * corners_of_cell * lane_count;
 
   /// `nodes` of each of the body's cells, in the order of its particles; `size` of a cell, m.
   LocationCells(const Body<Dim>& body, std::span<const CellNodes> nodes, const Vec<Dim>& size);
@@ -42,10 +40,10 @@ class LocationCells {
     LocalIndex cell;
     double jacobian;
   };
-  /// One step's deformation and stress. `forces`: [blocks * block_values], N, of each cell on its
-  /// corners. Returns the first cell that is inside out, or no longer a number.
+  /// One step's deformation and stress, and what each cell does to its corners. Returns the first
+  /// cell that is inside out, or no longer a number.
   std::optional<Inverted> update(Body<Dim>& body, const MeshNodes<Dim>& nodes, double dt,
-                                 double* forces) const;
+                                 Forces forces) const;
 
   /// J, stored in bending and in corners that are held open.
   double bending_energy(const Body<Dim>& body, const MeshNodes<Dim>& nodes) const;
@@ -68,7 +66,8 @@ class LocationCells {
   Lanes deform(ParticleStore& cells, LocalIndex block, const MeshNodes<Dim>& nodes, double rate,
                Chunk& chunk, int k) const;
   void push(ParticleStore& cells, LocalIndex block, const MeshNodes<Dim>& nodes, const Chunk& chunk,
-            int k, double* out) const;
+            int k, Forces forces) const;
+  void put_forces(const CellCorners<Dim>& force, LocalIndex block, Forces forces) const;
   CellCorners<Dim> corners(const MeshNodes<Dim>& nodes, LocalIndex block) const;
 
   /// Columns of what is plastic of the modes; none where the law does not flow.

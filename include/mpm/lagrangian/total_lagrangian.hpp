@@ -85,6 +85,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   std::optional<Halo> halo_;
   NodeRun<Dim> run_;
   std::vector<LocationCells<Dim>> cells_;  ///< of each body
+  // In the plane, where nodes gather what cells do to them.
   std::vector<std::size_t> first_force_;
   LaneVector<double> cell_forces_;  ///< all bodies' blocks, and a block of zeros
   /// Per lane_count nodes and corner: where in cell_forces_ the x component stands.

@@ -168,7 +168,7 @@ std::unique_ptr<Law<3>> hypoelastic()
 class PlasticBrick : public ::testing::TestWithParam<MakeLaw> {
  protected:
   /// N m, on the end of fibres along the axis after `across`; and on that of those along the last.
-  static Eigen::Vector2d moments(const LedBrick& brick, int across)
+  static Eigen::Vector2d moments(LedBrick& brick, int across)
   {
     const BrickPlaces force = brick.force();
     Eigen::Vector2d moments = Eigen::Vector2d::Zero();

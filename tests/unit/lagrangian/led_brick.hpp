@@ -1,9 +1,9 @@
 #pragma once
 /// A brick whose corners are led to places, its forces and energies.
 
-#include <mpm/core/lane_vector.hpp>
 #include <mpm/lagrangian/location_cells.hpp>
 
+#include <algorithm>
 #include <optional>
 
 namespace mpm {
@@ -16,8 +16,7 @@ class LedBrick {
   LedBrick(std::unique_ptr<Law<3>> law, double density, const Vec<3>& size)
       : body_{"brick", 0, density, std::move(law), store_of()},
         nodes_(lattice(), std::vector<char>(8, 1), size, IndexVec<3>::Zero()),
-        fields_(8, {.gradient = false}, 0),
-        forces_(LocationCells<3>::block_values, 0.0)
+        fields_(8, {.gradient = false}, 0)
   {
     body_.particles =
         ParticleStore(LocationCells<3>::columns(*body_.law), body_.law->state_columns(),
@@ -37,12 +36,11 @@ class LedBrick {
     for (LocalIndex node = 0; node < 8; ++node) places.col(node) = nodes_.position(node);
     return places;
   }
-  BrickPlaces force() const
+  BrickPlaces force()
   {
     BrickPlaces force;
-    for (int c = 0; c < 8; ++c)
-      for (int d = 0; d < 3; ++d)
-        force(d, c) = forces_[std::size_t(LocationCells<3>::place_of_force(c, 0) + d)];
+    for (LocalIndex node = 0; node < 8; ++node)
+      force.col(node) = Eigen::Map<const Vec<3>>(fields_.force_of(node));
     return force;
   }
   /// In one step. Returns whether the brick is the right way out.
@@ -53,7 +51,8 @@ class LedBrick {
     for (LocalIndex node = 0; node < 8; ++node)
       for (int d = 0; d < 3; ++d) fields_.updated_of(node)[d] = way(d, node) / dt;
     nodes_.move(fields_, dt);
-    const bool sound = !cells_->update(body_, nodes_, dt, forces_.data());
+    for (LocalIndex node = 0; node < 8; ++node) std::fill_n(fields_.force_of(node), 3, 0.0);
+    const bool sound = !cells_->update(body_, nodes_, dt, &fields_);
     work_ -= 0.5 * (before + force()).cwiseProduct(way).sum();
     return sound;
   }
@@ -81,7 +80,6 @@ class LedBrick {
   Body<3> body_;
   MeshNodes<3> nodes_;
   NodeFields<3> fields_;
-  LaneVector<double> forces_;
   std::optional<LocationCells<3>> cells_;
   double work_ = 0;
 };
