@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace mpm {
 
@@ -80,14 +79,12 @@ template <int Dim>
     for (int d = 0; d < Dim; ++d)
       for (int c = 0; c < corners_of_cell; ++c) at.along[d][c] = column(places[d], c);
   } else {
-    constexpr std::size_t width = MeshNodes<Dim>::stride;
-    alignas(lane_alignment) double rows[lane_count * width];
+    const double* places = nodes.along(0);
     for (int c = 0; c < corners_of_cell; ++c, node += lane_count) {
-      for (int lane = 0; lane < lane_count; ++lane)
-        std::memcpy(rows + std::size_t(lane) * width,
-                    nodes.along(0) + std::size_t(node[lane]) * width, width * sizeof(double));
-      Lanes columns[width];
-      to_columns(rows, width, columns);
+      Lanes columns[4];
+      to_columns(
+          [&](int lane) { return places + std::size_t(node[lane]) * MeshNodes<Dim>::stride; },
+          columns);
       for (int d = 0; d < Dim; ++d) at.along[d][c] = columns[d];
     }
   }
@@ -239,23 +236,28 @@ void LocationCells<Dim>::fill_motion(Body<Dim>& body, const MeshNodes<Dim>& node
 }
 
 template <int Dim>
-Lanes LocationCells<Dim>::least_stretch_squared(const MeshNodes<Dim>& nodes, LocalIndex block) const
+void LocationCells<Dim>::find_least_stretches(const MeshNodes<Dim>& nodes,
+                                              LaneVector<double>& squared) const
 {
-  const CellCorners<Dim> at = corners(nodes, block);
-  const CellDeformation<Dim> now(at, frame_);
-  const Lanes middle = mpm::least_stretch_squared(now), corner = bent_share(now, at, frame_);
-  return middle * corner * stdx::abs(corner);
+  squared.resize(corner_nodes_.size() / corners_of_cell);
+  for (std::size_t first = 0; first < squared.size(); first += lane_count) {
+    const CellCorners<Dim> at = corners(nodes, LocalIndex(first / lane_count));
+    const CellDeformation<Dim> now(at, frame_);
+    const Lanes middle = least_stretch_squared(now), corner = bent_share(now, at, frame_);
+    store(middle * corner * stdx::abs(corner), squared.data() + first);
+  }
 }
 
 template <int Dim>
-double LocationCells<Dim>::wave_speed_at_rest(const Body<Dim>& body, const MeshNodes<Dim>& nodes,
+double LocationCells<Dim>::wave_speed_at_rest(const Body<Dim>& body,
+                                              const LaneVector<double>& least_squared,
                                               double floor) const
 {
   const double undeformed = body.law->wave_speed();
   Lanes fastest = undeformed * undeformed;
   for (LocalIndex b = 0; b < body.particles.blocks(); ++b) {
     const double* state = body.particles.state().block(b);
-    const Lanes least = stdx::max(least_stretch_squared(nodes, b), Lanes(floor * floor));
+    const Lanes least = stdx::max(column(least_squared.data(), b), Lanes(floor * floor));
     Lanes here = body.law->fastest_wave_squared(state) / stdx::min(least, Lanes(1.0));
     stdx::where(load(state) == 0.0, here) = 0.0;  // padding
     fastest = stdx::max(fastest, here);

@@ -92,8 +92,9 @@ void TotalLagrangian<Dim>::check()
   double wave_speed = 0;
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     Body<Dim>& body = setup_.bodies[b];
-    wave_speed =
-        std::max(wave_speed, cells_[b].wave_speed_at_rest(body, *nodes_, setup_.mass_scaling));
+    cells_[b].find_least_stretches(*nodes_, least_stretches_[b]);
+    wave_speed = std::max(
+        wave_speed, cells_[b].wave_speed_at_rest(body, least_stretches_[b], setup_.mass_scaling));
     const auto beyond = present_deformation(body).beyond_bounds;
     if (!beyond || loss_) continue;
     cells_[b].fill_motion(body, *nodes_, *fields_);
@@ -139,7 +140,7 @@ void TotalLagrangian<Dim>::scale_masses()
     const ParticleStore& particles = setup_.bodies[b].particles;
     const int mass = particles.motion().find("mass");
     for (LocalIndex block = 0; block < particles.blocks(); ++block) {
-      const Lanes least = cells_[b].least_stretch_squared(*nodes_, block);
+      const Lanes least = column(least_stretches_[b].data(), block);
       if (stdx::none_of(least < bound)) [[likely]]
         continue;
       // A cell at the point of being turned inside out becomes no heavier than this.
@@ -220,6 +221,7 @@ std::size_t TotalLagrangian<Dim>::bytes() const
   std::size_t bytes = nodes_->bytes() + fields_->bytes() + node_terms_.size() * sizeof(int) +
                       cell_forces_.size() * sizeof(double);
   for (const LocationCells<Dim>& cells : cells_) bytes += cells.bytes();
+  for (const auto& stretches : least_stretches_) bytes += stretches.size() * sizeof(double);
   for (const Body<Dim>& body : setup_.bodies) bytes += body.particles.bytes();
   return contact_ ? bytes + contact_->bytes() : bytes;
 }

@@ -55,10 +55,13 @@ void TotalLagrangian<Dim>::make_mesh()
   const GridGeometry<Dim>& geometry = decomposition_.geometry();
   const int me = decomposition_.rank();
   const IndexVec<Dim> period = this->period();
-  const auto owner_of = [&](const IndexVec<Dim>& location) {
+  const auto cell_of = [&](const IndexVec<Dim>& location) {
     Vec<Dim> centre;
     for (int d = 0; d < Dim; ++d) centre[d] = (location[d] + 0.5) * setup_.location_size[d];
-    const IndexVec<Dim> cell = geometry.wrapped(geometry.cell_of(centre));
+    return geometry.cell_of(centre);
+  };
+  const auto owner_of = [&](const IndexVec<Dim>& any_cell) {
+    const IndexVec<Dim> cell = geometry.wrapped(any_cell);
     for (int d = 0; d < Dim; ++d)
       if (cell[d] < 0 || cell[d] >= geometry.nodes[d]) return me;
     return decomposition_.owner_of_cell(cell);
@@ -74,9 +77,11 @@ void TotalLagrangian<Dim>::make_mesh()
       cells.push_back(location);
       taken[key_of<Dim>(location)] = me;
       bool at_border = false;
+      const IndexVec<Dim> below = (location.array() - 2).matrix(),
+                          above = (location.array() + 2).matrix();
       for_each_index(
-          IndexBox<Dim>{(location.array() - 2).matrix(), (location.array() + 3).matrix()},
-          [&](const IndexVec<Dim>& near) { at_border = at_border || owner_of(near) != me; });
+          IndexBox<Dim>{cell_of(below), (cell_of(above).array() + 1).matrix()},
+          [&](const IndexVec<Dim>& cell) { at_border = at_border || owner_of(cell) != me; });
       if (at_border) at_borders.insert(at_borders.end(), location.begin(), location.end());
     }
   const MPI_Comm comm = decomposition_.comm();
@@ -84,7 +89,7 @@ void TotalLagrangian<Dim>::make_mesh()
   for (std::size_t k = 0; k < all.size(); k += Dim) {
     IndexVec<Dim> location;
     for (int d = 0; d < Dim; ++d) location[d] = LocalIndex(all[k + std::size_t(d)]);
-    taken.try_emplace(key_of<Dim>(location), owner_of(location));
+    taken.try_emplace(key_of<Dim>(location), owner_of(cell_of(location)));
   }
   const std::function<int(const IndexVec<Dim>&)> rank_of = [&](const IndexVec<Dim>& location) {
     const auto found = taken.find(key_of<Dim>(location));
@@ -105,6 +110,7 @@ void TotalLagrangian<Dim>::make_mesh()
     cells_.emplace_back(body, std::span(mesh.cells).subspan(first, count), setup_.location_size);
     first += count;
   }
+  least_stretches_.resize(cells_.size());
   if constexpr (Dim == 2) list_node_terms();
   if (setup_.contact_stiffness > 0) make_contact(mesh.cells, rank_of);
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// The cells of one body: from the places of their corners to the forces on these.
 
+#include <mpm/core/lane_vector.hpp>
 #include <mpm/grid/mesh_nodes.hpp>
 #include <mpm/lagrangian/brick.hpp>
 #include <mpm/lagrangian/location_mesh.hpp>
@@ -50,12 +51,13 @@ class LocationCells {
   /// The present places and velocities of the cells' centres.
   void fill_motion(Body<Dim>& body, const MeshNodes<Dim>& nodes,
                    const NodeFields<Dim>& fields) const;
-  /// Squares of the least stretch of the cells of one block: in the middle, and less where a corner
-  /// is narrower.
-  Lanes least_stretch_squared(const MeshNodes<Dim>& nodes, LocalIndex block) const;
+  /// Squares of the least stretch of every cell, [blocks * lanes]: in the middle, and less where a
+  /// corner is narrower.
+  void find_least_stretches(const MeshNodes<Dim>& nodes, LaneVector<double>& squared) const;
   /// m/s, of the fastest wave across a cell, as if it had the size that it has at rest; stretches
   /// below `floor` count as that.
-  double wave_speed_at_rest(const Body<Dim>& body, const MeshNodes<Dim>& nodes, double floor) const;
+  double wave_speed_at_rest(const Body<Dim>& body, const LaneVector<double>& least_squared,
+                            double floor) const;
 
   /// [blocks * corners * lanes]; lanes of padding name those of a real cell.
   const std::vector<LocalIndex>& corner_nodes() const { return corner_nodes_; }

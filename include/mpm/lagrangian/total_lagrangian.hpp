@@ -84,7 +84,8 @@ class TotalLagrangian final : public Formulation<Dim> {
   std::optional<NodeFields<Dim>> fields_;
   std::optional<Halo> halo_;
   NodeRun<Dim> run_;
-  std::vector<LocationCells<Dim>> cells_;  ///< of each body
+  std::vector<LocationCells<Dim>> cells_;            ///< of each body
+  std::vector<LaneVector<double>> least_stretches_;  ///< squared, of their cells at the last check
   // In the plane, where nodes gather what cells do to them.
   std::vector<std::size_t> first_force_;
   LaneVector<double> cell_forces_;  ///< all bodies' blocks, and a block of zeros

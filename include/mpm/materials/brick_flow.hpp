@@ -62,14 +62,20 @@ class BrickFlow {
     result.yields = alike + other > limit * limit;
     result.any = stdx::any_of(result.yields);
     if (!result.any) return result;
-    // 1 / stress is nearly linear in g: Newton's method is done in one step without `alike`, and in
-    // three or so with it.
+    // 1 / stress is linear in g without `alike`, and nearly so with it: Newton's method starts from
+    // what g would be if all shrank as the others do, and comes to the root from below.
     constexpr int most_iterations = 20;
     constexpr double tolerance = 1e-12;
     const double slope_of_limit = yield_.hardening_modulus / three_mu_;
     const Lanes inverse_limit = 1.0 / limit;
-    Lanes g = 0.0, p = 1.0, r = 1.0, reached = 1.0;
+    const Lanes inverse_trial =
+        1.0 / stdx::sqrt(select(result.yields, alike + other, limit * limit));
+    Lanes g = (inverse_limit - inverse_trial) / (inverse_trial + slope_of_limit * inverse_limit);
+    stdx::where(!result.yields, g) = 0.0;
+    Lanes p, r, reached;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      p = 1.0 / (1.0 + g);
+      r = 1.0 / (1.0 + ratio_ * g);
       reached = select(result.yields, other * p * p + alike * r * r, Lanes(1.0));
       const Lanes inverse = 1.0 / stdx::sqrt(reached);
       Lanes residual = (1.0 - slope_of_limit * g) * inverse_limit - inverse;
@@ -79,8 +85,6 @@ class BrickFlow {
           slope_of_limit * inverse_limit +
           inverse * inverse * inverse * (other * p * p * p + ratio_ * alike * r * r * r);
       g += select(result.yields, residual / slope, Lanes(0.0));
-      p = 1.0 / (1.0 + g);
-      r = 1.0 / (1.0 + ratio_ * g);
     }
     result.scale = p;
     result.plastic_strain = g * stdx::sqrt(reached) / three_mu_;
