@@ -45,7 +45,6 @@ void TotalLagrangian<Dim>::step(double dt)
     condition->stop(*nodes_, *fields_, time_, dt);
   setup_.slots.loads.book(*nodes_, runs(), *fields_, between);
   largest_speed_ = std::max(largest_speed_, nodes_->move(*fields_, dt));
-  fields_->carry_momentum(runs());
   particles_are_present_ = false;
   time_ += dt;
   ++steps_;

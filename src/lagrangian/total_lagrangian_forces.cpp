@@ -9,9 +9,6 @@ namespace mpm {
 template <int Dim>
 void TotalLagrangian<Dim>::add_forces(double dt)
 {
-  if constexpr (Dim == 3)
-    for (LocalIndex node = 0; node < nodes_->size(); ++node)
-      std::fill_n(fields_->force_of(node), Dim, 0.0);
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     Body<Dim>& body = setup_.bodies[b];
     typename LocationCells<Dim>::Forces forces{};

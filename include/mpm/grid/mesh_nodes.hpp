@@ -36,8 +36,9 @@ class MeshNodes final : public Nodes<Dim> {
   /// in space rows of four, which cells read at once.
   static constexpr int stride = Dim == 2 ? 1 : 4;
   const double* along(int axis) const { return places_.data() + axis * axis_stride(); }
-  /// x += dt v with the updated velocities. Returns the largest component of them, m/s.
-  double move(const NodeFields<Dim>& fields, double dt);
+  /// x += dt v with the updated velocities, which become the momentum; forces are 0 then. Returns
+  /// the largest component of the velocities, m/s.
+  double move(NodeFields<Dim>& fields, double dt);
 
   /// m, that no node has gone farther along an axis since time 0.
   double way() const { return way_; }

@@ -154,16 +154,14 @@ class CellBending<3> {
                                       Lanes (&moment)[modes]) const
   {
     Strains elastic = elastic_strains(bent, plastic);
-    if (plastic) {
-      const Lanes alike_share = load(columns), other_share = load(columns + lane_count);
+    const Lanes alike_share = load(columns), other_share = load(columns + lane_count);
+    if (plastic && stdx::any_of(stdx::min(alike_share, other_share) < 1.0))
       for (int k = 0; k < modes; ++k) {
-        const Lanes& share = is_alike(k) ? alike_share : other_share;
         double* of_mode = plastic + k * lane_count;
-        const Lanes lost = elastic.of[k] * (1.0 - share);
+        const Lanes lost = elastic.of[k] * (1.0 - (is_alike(k) ? alike_share : other_share));
         store(load(of_mode) + lost, of_mode);
         elastic.of[k] -= lost;
       }
-    }
     for (int m = 0; m < modes; ++m) moment[m] = 0.0;
     for (int j = 0; j < 3; ++j) {
       const int i = (j + 1) % 3, k = (j + 2) % 3;

@@ -3,7 +3,6 @@
 
 #include <mpm/lagrangian/location_cells.hpp>
 
-#include <algorithm>
 #include <optional>
 
 namespace mpm {
@@ -51,7 +50,6 @@ class LedBrick {
     for (LocalIndex node = 0; node < 8; ++node)
       for (int d = 0; d < 3; ++d) fields_.updated_of(node)[d] = way(d, node) / dt;
     nodes_.move(fields_, dt);
-    for (LocalIndex node = 0; node < 8; ++node) std::fill_n(fields_.force_of(node), 3, 0.0);
     const bool sound = !cells_->update(body_, nodes_, dt, &fields_);
     work_ -= 0.5 * (before + force()).cwiseProduct(way).sum();
     return sound;
