@@ -1,7 +1,7 @@
 #pragma once
 /// A cell as large as a particle's location, integrated at its centre, with modes of bending: what
 /// a wall of one cell bends with. `CellDeformation`, `corner_forces` and the modes are of the plane
-/// (plane_cell.hpp) or of space (brick.hpp).
+/// (plane_cell.hpp) or of space (brick.hpp, brick_bending.hpp).
 
 #include <mpm/materials/law.hpp>
 

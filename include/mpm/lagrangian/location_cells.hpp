@@ -3,7 +3,7 @@
 
 #include <mpm/core/lane_vector.hpp>
 #include <mpm/grid/mesh_nodes.hpp>
-#include <mpm/lagrangian/brick.hpp>
+#include <mpm/lagrangian/brick_bending.hpp>
 #include <mpm/lagrangian/location_mesh.hpp>
 #include <mpm/lagrangian/plane_cell.hpp>
 #include <mpm/materials/body.hpp>

@@ -63,7 +63,7 @@ class BrickFlow {
     result.any = stdx::any_of(result.yields);
     if (!result.any) return result;
     // 1 / stress is linear in g without `alike`, and nearly so with it: Newton's method starts from
-    // what g would be if all shrank as the others do, and comes to the root from below.
+    // what g would be if all shrank as the others do, and has two or three steps to go.
     constexpr int most_iterations = 20;
     constexpr double tolerance = 1e-12;
     const double slope_of_limit = yield_.hardening_modulus / three_mu_;

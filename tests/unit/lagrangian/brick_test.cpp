@@ -55,6 +55,31 @@ TEST(Brick, IsStretchedAndBentAsItsCornersSay)
   EXPECT_LE(found.narrowest_corner(frame)[0], narrowest_share(corners, frame)[0]);
 }
 
+/// Also where stretches coincide: never above, and hardly below.
+TEST(Brick, KnowsItsLeastStretch)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> logarithm(std::log(0.05), std::log(3.0));
+  for (int trial = 0; trial < 300; ++trial) {
+    Vec<3> stretch(logarithm(random), logarithm(random), logarithm(random));
+    if (trial % 3 == 0) stretch[1] = stretch[0];
+    if (trial % 9 == 0) stretch[2] = stretch[0];
+    stretch = stretch.array().exp();
+    const Eigen::Matrix3d turn = Eigen::Quaterniond::UnitRandom().toRotationMatrix(),
+                          f = turn * stretch.asDiagonal() *
+                              Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+    CellCorners<3> corners;
+    for (int c = 0; c < 8; ++c) {
+      const Vec<3> place = f * at_rest().col(c);
+      for (int d = 0; d < 3; ++d) corners.along[d][c] = place[d];
+    }
+    const CellDeformation<3> now(corners, CellFrame<3>(size));
+    const double least = std::sqrt(least_stretch_squared(now)[0]) / stretch.minCoeff();
+    ASSERT_LT(least, 1 + 1e-6) << stretch.transpose();
+    ASSERT_GT(least, 0.998) << stretch.transpose();
+  }
+}
+
 /// Of all lengths, and far enough that corners are held open.
 TEST(Brick, HasForcesThatAreTheGradientOfItsEnergy)
 {
