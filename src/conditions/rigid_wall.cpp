@@ -85,7 +85,7 @@ void RigidWall<Dim>::find_near(const MeshNodes<Dim>& nodes, double face)
                       std::abs(nodes.rest(node, axis) - placement_.position) < 1e-9 * reach;
     if (held)
       near_->held.push_back(node);
-    else if (side * (nodes.along(axis)[node] - face) > -reach)
+    else if (side * (nodes.position(node)[axis] - face) > -reach)
       near_->nodes.push_back(node);
   }
 }
@@ -99,18 +99,20 @@ void RigidWall<Dim>::stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, 
   const int axis = placement_.axis;
   const double face = position(time + dt), side = placement_.upper ? 1 : -1;
   find_near(nodes, face);
-  const double* at = nodes.along(axis);
+  const auto at = [along = nodes.along(axis)](LocalIndex node) {
+    return along[std::ptrdiff_t(node) * MeshNodes<Dim>::stride];
+  };
   const auto put_to_face = [&](LocalIndex node) {
     const bool owned = nodes.is_owned(node);
     for (int d = 0; d < Dim; ++d)
       if (d == axis)
-        this->drive(fields, node, owned, d, (face - at[node]) / dt);
+        this->drive(fields, node, owned, d, (face - at(node)) / dt);
       else if (grip_ == WallGrip::stick)
         this->drive(fields, node, owned, d, 0);
   };
   for (const LocalIndex node : near_->held) put_to_face(node);
   for (const LocalIndex node : near_->nodes)
-    if (side * (at[node] + dt * fields.updated_of(node)[axis] - face) > 0) put_to_face(node);
+    if (side * (at(node) + dt * fields.updated_of(node)[axis] - face) > 0) put_to_face(node);
 }
 
 template <int Dim>

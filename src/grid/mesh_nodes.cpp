@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace mpm {
 
@@ -15,19 +14,16 @@ MeshNodes<Dim>::MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> 
       period_(period),
       listing_(Nodes<Dim>::new_listing())
 {
-  for (int d = 0; d < Dim; ++d) {
-    auto& places = places_[std::size_t(d)];
-    places.resize(owned_.size());
-    for (LocalIndex node = 0; node < this->size(); ++node)
-      places[std::size_t(node)] = rest(node, d);
-  }
+  places_.assign(owned_.size() * std::size_t(stride == 1 ? Dim : stride), 0.0);
+  for (LocalIndex node = 0; node < this->size(); ++node)
+    for (int d = 0; d < Dim; ++d) place(node, d) = rest(node, d);
 }
 
 template <int Dim>
 Vec<Dim> MeshNodes<Dim>::position(LocalIndex node) const
 {
   Vec<Dim> position;
-  for (int d = 0; d < Dim; ++d) position[d] = along(d)[node];
+  for (int d = 0; d < Dim; ++d) position[d] = along(d)[std::ptrdiff_t(node) * stride];
   return position;
 }
 
@@ -46,15 +42,23 @@ void MeshNodes<Dim>::find_within(const Region<Dim>& region, std::vector<LocalInd
 }
 
 template <int Dim>
-double MeshNodes<Dim>::move(const NodeFields<Dim>& fields, double dt)
+double MeshNodes<Dim>::move(NodeFields<Dim>& fields, double dt)
 {
+  // Nodes whose records stay in the nearest cache while all is done with them.
+  constexpr LocalIndex piece = 128;
   double fastest = 0;
-  const double* u = fields.updated.data();
-  for (LocalIndex node = 0; node < size(); ++node, u += NodeFields<Dim>::record_width)
-    for (int d = 0; d < Dim; ++d) {
-      places_[std::size_t(d)][std::size_t(node)] += dt * u[d];
-      fastest = std::max(fastest, std::abs(u[d]));
+  for (LocalIndex first = 0; first < size(); first += piece) {
+    const NodeRun<Dim> some{first, std::min(piece, size() - first), IndexVec<Dim>::Zero()};
+    fields.carry_momentum(std::span(&some, 1));
+    for (LocalIndex node = first; node < first + some.length; ++node) {
+      const double* u = fields.updated_of(node);
+      for (int d = 0; d < Dim; ++d) {
+        place(node, d) += dt * u[d];
+        fastest = std::max(fastest, std::abs(u[d]));
+      }
+      std::fill_n(fields.force_of(node), Dim, 0.0);
     }
+  }
   way_ += dt * fastest;
   listing_ = Nodes<Dim>::new_listing();
   return fastest;
@@ -63,8 +67,7 @@ double MeshNodes<Dim>::move(const NodeFields<Dim>& fields, double dt)
 template <int Dim>
 void MeshNodes<Dim>::archive(Archive& archive)
 {
-  for (int d = 0; d < Dim; ++d)
-    archive.values("along_" + std::to_string(d), places_[std::size_t(d)]);
+  archive.values("places", places_);
   archive.value("way", way_);
   if (archive.is_loading()) listing_ = Nodes<Dim>::new_listing();
 }
@@ -72,7 +75,7 @@ void MeshNodes<Dim>::archive(Archive& archive)
 template <int Dim>
 std::size_t MeshNodes<Dim>::bytes() const
 {
-  return owned_.size() * (sizeof(char) + sizeof(IndexVec<Dim>) + Dim * sizeof(double));
+  return owned_.size() * (sizeof(char) + sizeof(IndexVec<Dim>)) + places_.size() * sizeof(double);
 }
 
 template class MeshNodes<2>;

@@ -1,5 +1,6 @@
 /// What a total Lagrangian step sets up once: nodes and what they share, masses, lists of terms.
 
+#include <mpm/core/index_box.hpp>
 #include <mpm/lagrangian/total_lagrangian.hpp>
 #include <mpm/parallel/session.hpp>
 
@@ -11,137 +12,117 @@ namespace mpm {
 
 namespace {
 
-using LocationKey = std::array<LocalIndex, 2>;
+template <int Dim>
+using LocationKey = std::array<LocalIndex, std::size_t(Dim)>;
 
-LocationKey key_of(const IndexVec<2>& location)
+template <int Dim>
+LocationKey<Dim> key_of(const IndexVec<Dim>& location)
 {
-  return {location[0], location[1]};
+  LocationKey<Dim> key;
+  for (int d = 0; d < Dim; ++d) key[std::size_t(d)] = location[d];
+  return key;
 }
 
 }  // namespace
 
 /// Of a particle at the centre of its location.
-IndexVec<2> TotalLagrangian::location_of(const Body<2>& body, LocalIndex particle) const
+template <int Dim>
+IndexVec<Dim> TotalLagrangian<Dim>::location_of(const Body<Dim>& body, LocalIndex particle) const
 {
-  IndexVec<2> location;
-  for (int d = 0; d < 2; ++d)
+  IndexVec<Dim> location;
+  for (int d = 0; d < Dim; ++d)
     location[d] =
         LocalIndex(std::floor(body.particles.motion()(d, particle) / setup_.location_size[d]));
   return location;
 }
 
 /// In locations; 0 for axes without.
-IndexVec<2> TotalLagrangian::period() const
+template <int Dim>
+IndexVec<Dim> TotalLagrangian<Dim>::period() const
 {
-  const GridGeometry<2>& geometry = decomposition_.geometry();
-  IndexVec<2> period = IndexVec<2>::Zero();
-  for (int d = 0; d < 2; ++d)
+  const GridGeometry<Dim>& geometry = decomposition_.geometry();
+  IndexVec<Dim> period = IndexVec<Dim>::Zero();
+  for (int d = 0; d < Dim; ++d)
     if (geometry.periodic[d])
       period[d] = LocalIndex(
           std::lround(geometry.nodes[d] * geometry.spacing[d] / setup_.location_size[d]));
   return period;
 }
 
-void TotalLagrangian::make_mesh()
+template <int Dim>
+void TotalLagrangian<Dim>::make_mesh()
 {
-  const GridGeometry<2>& geometry = decomposition_.geometry();
+  const GridGeometry<Dim>& geometry = decomposition_.geometry();
   const int me = decomposition_.rank();
-  const IndexVec<2> period = this->period();
-  const auto owner_of = [&](const IndexVec<2>& location) {
-    Vec<2> centre;
-    for (int d = 0; d < 2; ++d) centre[d] = (location[d] + 0.5) * setup_.location_size[d];
-    const IndexVec<2> cell = geometry.wrapped(geometry.cell_of(centre));
-    for (int d = 0; d < 2; ++d)
+  const IndexVec<Dim> period = this->period();
+  const auto cell_of = [&](const IndexVec<Dim>& location) {
+    Vec<Dim> centre;
+    for (int d = 0; d < Dim; ++d) centre[d] = (location[d] + 0.5) * setup_.location_size[d];
+    return geometry.cell_of(centre);
+  };
+  const auto owner_of = [&](const IndexVec<Dim>& any_cell) {
+    const IndexVec<Dim> cell = geometry.wrapped(any_cell);
+    for (int d = 0; d < Dim; ++d)
       if (cell[d] < 0 || cell[d] >= geometry.nodes[d]) return me;
     return decomposition_.owner_of_cell(cell);
   };
 
   // Locations of this rank, and those of others within two of a border between ranks.
-  std::vector<IndexVec<2>> cells;
-  std::map<LocationKey, int> taken;
+  std::vector<IndexVec<Dim>> cells;
+  std::map<LocationKey<Dim>, int> taken;
   std::vector<double> at_borders;
-  for (const Body<2>& body : setup_.bodies)
+  for (const Body<Dim>& body : setup_.bodies)
     for (LocalIndex p = 0; p < body.particles.size(); ++p) {
-      const IndexVec<2> location = location_of(body, p);
+      const IndexVec<Dim> location = location_of(body, p);
       cells.push_back(location);
-      taken[key_of(location)] = me;
+      taken[key_of<Dim>(location)] = me;
       bool at_border = false;
-      for (int j = -2; j <= 2; ++j)
-        for (int i = -2; i <= 2; ++i)
-          at_border = at_border || owner_of(location + IndexVec<2>(i, j)) != me;
-      if (at_border)
-        at_borders.insert(at_borders.end(), {double(location[0]), double(location[1])});
+      const IndexVec<Dim> below = (location.array() - 2).matrix(),
+                          above = (location.array() + 2).matrix();
+      for_each_index(
+          IndexBox<Dim>{cell_of(below), (cell_of(above).array() + 1).matrix()},
+          [&](const IndexVec<Dim>& cell) { at_border = at_border || owner_of(cell) != me; });
+      if (at_border) at_borders.insert(at_borders.end(), location.begin(), location.end());
     }
   const MPI_Comm comm = decomposition_.comm();
   const std::vector<double> all = joined_over_ranks(comm, at_borders);
-  for (std::size_t k = 0; k < all.size(); k += 2) {
-    const IndexVec<2> location(LocalIndex(all[k]), LocalIndex(all[k + 1]));
-    taken.try_emplace(key_of(location), owner_of(location));
+  for (std::size_t k = 0; k < all.size(); k += Dim) {
+    IndexVec<Dim> location;
+    for (int d = 0; d < Dim; ++d) location[d] = LocalIndex(all[k + std::size_t(d)]);
+    taken.try_emplace(key_of<Dim>(location), owner_of(cell_of(location)));
   }
-  const std::function<int(const IndexVec<2>&)> rank_of = [&](const IndexVec<2>& location) {
-    const auto found = taken.find(key_of(location));
+  const std::function<int(const IndexVec<Dim>&)> rank_of = [&](const IndexVec<Dim>& location) {
+    const auto found = taken.find(key_of<Dim>(location));
     return found == taken.end() ? -1 : found->second;
   };
 
-  LocationMesh<2> mesh = make_location_mesh<2>(cells, me, rank_of, period);
+  LocationMesh<Dim> mesh = make_location_mesh<Dim>(cells, me, rank_of, period);
   nodes_.emplace(std::move(mesh.nodes), std::move(mesh.owned), setup_.location_size, period);
   run_ = nodes_->run();
-  fields_.emplace(nodes_->size(), mesh_needs<2>(!setup_.slots.loads.empty()), 0.0);
+  fields_.emplace(nodes_->size(), mesh_needs<Dim>(!setup_.slots.loads.empty()), 0.0);
   halo_.emplace(comm, std::move(mesh.shared));
   std::size_t first = 0;
-  for (const Body<2>& body : setup_.bodies) {
+  for (const Body<Dim>& body : setup_.bodies) {
     const auto count = std::size_t(body.particles.size());
     cells_.emplace_back(body, std::span(mesh.cells).subspan(first, count), setup_.location_size);
     first += count;
   }
-  list_node_terms();
+  least_stretches_.resize(cells_.size());
+  if constexpr (Dim == 2) list_node_terms();
   if (setup_.contact_stiffness > 0) make_contact(mesh.cells, rank_of);
-  if (contact_ && setup_.friction > 0) friction_.assign(2 * std::size_t(nodes_->size()), 0.0);
+  if (contact_ && setup_.friction > 0) friction_.assign(Dim * std::size_t(nodes_->size()), 0.0);
 }
 
-void TotalLagrangian::make_contact(const std::vector<LocationCells::CellNodes>& cells,
-                                   const std::function<int(const IndexVec<2>&)>& rank_of)
+template <int Dim>
+void TotalLagrangian<Dim>::list_node_terms()
 {
-  const IndexVec<2> period = this->period();
-  const auto is_taken = [&](IndexVec<2> location) {
-    for (int d = 0; d < 2; ++d)
-      if (period[d] > 0) location[d] = (location[d] + period[d]) % period[d];
-    return rank_of(location) >= 0;
-  };
-  /// Bit k: nothing on one side at least of the diagonal neighbour towards corner k.
-  const auto open_corners = [&](const IndexVec<2>& location) {
-    unsigned open = 0;
-    for (int corner = 0; corner < 4; ++corner)
-      if (!is_taken(location + IndexVec<2>(corner & 1 ? 1 : -1, 0)) ||
-          !is_taken(location + IndexVec<2>(0, corner & 2 ? 1 : -1)))
-        open |= 1u << corner;
-    return open;
-  };
-  std::vector<OverlapContact::Cell> near;
-  std::size_t number = 0;
-  for (const Body<2>& body : setup_.bodies) {
-    const double wave = body.law->wave_speed();
-    const double stiffness =
-        setup_.contact_stiffness * body.density * wave * wave * setup_.thickness;
-    for (LocalIndex p = 0; p < body.particles.size(); ++p, ++number) {
-      const IndexVec<2> location = location_of(body, p);
-      if (!near_surface<2>(location, is_taken)) continue;
-      const auto& n = cells[number];
-      near.push_back({{n[0], n[1], n[3], n[2]}, location, stiffness, open_corners(location)});
-    }
-  }
-  contact_.emplace(decomposition_.comm(), std::move(near), setup_.location_size, period);
-}
-
-void TotalLagrangian::list_node_terms()
-{
-  constexpr int corners = LocationMesh<2>::corners;
+  constexpr int corners = LocationMesh<Dim>::corners;
   std::size_t values = 0;
-  for (const Body<2>& body : setup_.bodies) {
+  for (const Body<Dim>& body : setup_.bodies) {
     first_force_.push_back(values);
-    values += std::size_t(body.particles.blocks()) * LocationCells::block_values;
+    values += std::size_t(body.particles.blocks()) * LocationCells<Dim>::block_values;
   }
-  cell_forces_.assign(values + 2 * lane_count, 0.0);
+  cell_forces_.assign(values + Dim * lane_count, 0.0);
   const auto groups = std::size_t((nodes_->size() + lane_count - 1) / lane_count);
   node_terms_.assign(groups * corners * lane_count, std::int32_t(values));
   std::vector<int> filled(std::size_t(nodes_->size()), 0);
@@ -153,15 +134,16 @@ void TotalLagrangian::list_node_terms()
             cells_[b].corner_nodes()[(block * corners + std::size_t(c)) * lane_count + lane]);
         const auto slot = std::size_t(filled[node]++);
         node_terms_[(node / lane_count * corners + slot) * lane_count + node % lane_count] =
-            std::int32_t(first_force_[b] + block * LocationCells::block_values +
-                         2 * std::size_t(c) * lane_count + lane);
+            std::int32_t(first_force_[b] + block * LocationCells<Dim>::block_values +
+                         Dim * std::size_t(c) * lane_count + lane);
       }
 }
 
-/// A quarter of a cell's mass and momentum to each of its corners.
-void TotalLagrangian::add_masses()
+/// An equal part of a cell's mass and momentum to each of its corners.
+template <int Dim>
+void TotalLagrangian<Dim>::add_masses()
 {
-  constexpr int corners = LocationMesh<2>::corners;
+  constexpr int corners = LocationMesh<Dim>::corners;
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     const ParticleStore& particles = setup_.bodies[b].particles;
     const ColumnGroup& motion = particles.motion();
@@ -174,20 +156,28 @@ void TotalLagrangian::add_masses()
                                      std::size_t(p % lane_count)];
         const double share = motion(mass, p) / corners;
         fields_->mass_of(node) += share;
-        for (int d = 0; d < 2; ++d)
+        for (int d = 0; d < Dim; ++d)
           fields_->momentum_column()
-              .values[std::size_t(node) * NodeFields<2>::record_width + std::size_t(d)] +=
+              .values[std::size_t(node) * NodeFields<Dim>::record_width + std::size_t(d)] +=
               share * motion(velocity + d, p);
       }
   }
   halo_->sum(std::array{fields_->mass_column(), fields_->momentum_column()});
-  first_masses_.assign(fields_->mass.begin(), fields_->mass.end());
-  for (LocalIndex node = 0; node < nodes_->size(); ++node)
-    for (int d = 0; d < 2; ++d)
+  for (LocalIndex node = 0; node < nodes_->size(); ++node) {
+    first_masses_.push_back(fields_->mass_of(node));
+    for (int d = 0; d < Dim; ++d)
       fields_->updated_of(node)[d] =
           fields_
-              ->momentum_force[std::size_t(node) * NodeFields<2>::record_width + std::size_t(d)] /
+              ->momentum_force[std::size_t(node) * NodeFields<Dim>::record_width + std::size_t(d)] /
           fields_->mass_of(node);
+  }
 }
+
+template void TotalLagrangian<2>::make_mesh();
+template void TotalLagrangian<3>::make_mesh();
+template void TotalLagrangian<2>::add_masses();
+template void TotalLagrangian<3>::add_masses();
+template IndexVec<2> TotalLagrangian<2>::location_of(const Body<2>&, LocalIndex) const;
+template IndexVec<2> TotalLagrangian<2>::period() const;
 
 }  // namespace mpm

@@ -68,9 +68,9 @@ class Hencky final : public Law<2> {
     }
   }
 
-  Vec<2> bending_modulus() const override
+  BendingModuli<2> bending_moduli() const override
   {
-    return Vec<2>::Constant(elastic_.bending_modulus(Plane));
+    return {Vec<2>::Constant(elastic_.bending_modulus(Plane))};
   }
   void update_bent(double* state, int blocks, const double* gradient, double dt,
                    double* force_stress, double* bending) const override

@@ -1,3 +1,4 @@
+#include <mpm/materials/brick_flow.hpp>
 #include <mpm/materials/hencky.hpp>
 #include <mpm/materials/logarithmic_wave.hpp>
 #include <mpm/materials/space_logarithm.hpp>
@@ -17,12 +18,14 @@ class HenckySolid final : public Law<3> {
 
  public:
   HenckySolid(const IsotropicConstants& elastic, double density, const YieldConstants& yield)
-      : density_(density),
+      : bending_(elastic),
+        density_(density),
         yield_(yield),
         mu_(elastic.shear_modulus()),
         bulk_(elastic.bulk_modulus()),
         wave_speed_(std::sqrt(elastic.wave_modulus() / density)),
-        flow_(RadialFlow::of_strain(mu_, yield))
+        flow_(RadialFlow::of_strain(mu_, yield)),
+        bent_flow_(elastic, yield)
   {
   }
 
@@ -44,19 +47,25 @@ class HenckySolid final : public Law<3> {
   void update(double* state, int blocks, const double* gradient, double dt,
               double* force_stress) const override
   {
-    for (int k = 0; k < blocks; ++k) {
-      double* s = state + k * columns * lane_count;
-      const double* l = gradient + k * 9 * lane_count;
-      Tensor f;  // I + dt L; b_e = f b_e f^T
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          f.a[i][j] = double(i == j) + dt * load(l + (i + 3 * j) * lane_count);
-      Symmetric b = elastic_left_cauchy_green(s).turned(f);
-      LogarithmicStrain e(b);
-      if constexpr (Plastic) return_radially(s, e, b);
-      store_scaled(b, 1.0, s + be * lane_count);
-      store_scaled(kirchhoff(e), at(s, volume), force_stress + k * 6 * lane_count);
-    }
+    for (int k = 0; k < blocks; ++k)
+      update_block(state + k * columns * lane_count, gradient + k * 9 * lane_count, dt,
+                   force_stress + k * 6 * lane_count);
+  }
+
+  BendingModuli<3> bending_moduli() const override { return bending_; }
+  void update_bent(double* state, int blocks, const double* gradient, double dt,
+                   double* force_stress, double* bending) const override
+  {
+    if constexpr (!Plastic)
+      Law<3>::update_bent(state, blocks, gradient, dt, force_stress, bending);
+    else
+      for (int k = 0; k < blocks; ++k) {
+        double* b = bending + k * bending_columns<3> * lane_count;
+        BrickBending bent(b);
+        update_block(state + k * columns * lane_count, gradient + k * 9 * lane_count, dt,
+                     force_stress + k * 6 * lane_count, bent);
+        bent.store_shares(b);
+      }
   }
 
   void force_stress(const double* state, int blocks, double* force_stress) const override
@@ -117,13 +126,40 @@ class HenckySolid final : public Law<3> {
             two_mu * d.xz};
   }
 
-  /// Radial return of the deviator of the logarithmic strain; the trace stays. Lanes that do not
-  /// flow keep their b_e to the last bit.
+  template <class... Bent>
+  void update_block(double* s, const double* l, double dt, double* out, Bent&... bent) const
+  {
+    Tensor f;  // I + dt L; b_e = f b_e f^T
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        f.a[i][j] = double(i == j) + dt * load(l + (i + 3 * j) * lane_count);
+    Symmetric b = elastic_left_cauchy_green(s).turned(f);
+    LogarithmicStrain e(b);
+    if constexpr (Plastic) return_radially(s, e, b, bent...);
+    store_scaled(b, 1.0, s + be * lane_count);
+    store_scaled(kirchhoff(e), at(s, volume), out);
+  }
+
   void return_radially(double* s, LogarithmicStrain& e, Symmetric& b) const
   {
-    const Lanes squared = 1.5 * e.deviator.squared();  // (q / 2 mu)^2
-    const RadialReturn flow = flow_(squared, at(s, plastic_strain));
+    const RadialReturn flow = flow_(squared(e), at(s, plastic_strain));
     if (!flow.any) return;
+    scale_deviator(flow, e, b);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
+  }
+  void return_radially(double* s, LogarithmicStrain& e, Symmetric& b, BrickBending& bent) const
+  {
+    const BrickReturn flow = bent_flow_(4 * mu_ * mu_ * squared(e), bent, at(s, plastic_strain));
+    if (!flow.any) return;
+    scale_deviator(flow, e, b);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain, flow.share_of_centre, bent.work());
+  }
+  /// (q / 2 mu)^2
+  static Lanes squared(const LogarithmicStrain& e) { return 1.5 * e.deviator.squared(); }
+  /// Of the logarithmic strain; the trace stays. Lanes that do not flow keep their b_e to the last
+  /// bit.
+  static void scale_deviator(const RadialReturn& flow, LogarithmicStrain& e, Symmetric& b)
+  {
     const Symmetric d = e.deviator;
     const auto scaled = [&](const Lanes& by) {
       return Symmetric{by * d.xx, by * d.yy, by * d.zz, by * d.xy, by * d.yz, by * d.xz};
@@ -131,13 +167,14 @@ class HenckySolid final : public Law<3> {
     e.deviator = scaled(flow.scale);
     put_where(flow.yields,
               exponential_of_deviator(scaled(2.0 * flow.scale), lane_exp(2.0 / 3.0 * e.trace)), b);
-    record_flow(s, flow_columns, yield_, flow.plastic_strain);
   }
 
+  BendingModuli<3> bending_;
   double density_;
   YieldConstants yield_;
   double mu_, bulk_, wave_speed_;
   RadialFlow flow_;
+  BrickFlow bent_flow_;
 };
 
 }  // namespace

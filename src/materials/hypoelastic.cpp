@@ -95,7 +95,10 @@ class Hypoelastic final : public Law<2> {
     }
   }
 
-  Vec<2> bending_modulus() const override { return {1 / compliance_(0, 0), 1 / compliance_(1, 1)}; }
+  BendingModuli<2> bending_moduli() const override
+  {
+    return {{1 / compliance_(0, 0), 1 / compliance_(1, 1)}};
+  }
   void update_bent(double* state, int blocks, const double* gradient, double dt,
                    double* force_stress, double* bending) const override
   {

@@ -1,4 +1,5 @@
 #include <mpm/core/lanes.hpp>
+#include <mpm/materials/brick_flow.hpp>
 #include <mpm/materials/hypoelastic_solid.hpp>
 #include <mpm/materials/logarithmic_wave.hpp>
 #include <mpm/materials/space_tensor.hpp>
@@ -39,7 +40,8 @@ class HypoelasticSolid final : public Law<3> {
       : elastic_(elastic),
         yield_(yield),
         density_(density),
-        flow_(RadialFlow::of_stress(elastic.shear_modulus(), yield))
+        flow_(RadialFlow::of_stress(elastic.shear_modulus(), yield)),
+        bent_flow_(elastic, yield)
   {
   }
 
@@ -65,6 +67,22 @@ class HypoelasticSolid final : public Law<3> {
     for (int k = 0; k < blocks; ++k)
       update_block(state + k * columns * lane_count, gradient + k * 9 * lane_count, dt,
                    force_stress + k * 6 * lane_count);
+  }
+
+  BendingModuli<3> bending_moduli() const override { return BendingModuli<3>(elastic_); }
+  void update_bent(double* state, int blocks, const double* gradient, double dt,
+                   double* force_stress, double* bending) const override
+  {
+    if constexpr (!Plastic)
+      Law<3>::update_bent(state, blocks, gradient, dt, force_stress, bending);
+    else
+      for (int k = 0; k < blocks; ++k) {
+        double* b = bending + k * bending_columns<3> * lane_count;
+        BrickBending bent(b);
+        update_block(state + k * columns * lane_count, gradient + k * 9 * lane_count, dt,
+                     force_stress + k * 6 * lane_count, bent);
+        bent.store_shares(b);
+      }
   }
 
   void force_stress(const double* state, int blocks, double* force_stress) const override
@@ -101,7 +119,8 @@ class HypoelasticSolid final : public Law<3> {
   static Lanes at(const double* s, int column) { return load(s + column * lane_count); }
   static Symmetric stress(const double* s) { return load_symmetric(s + tau * lane_count); }
 
-  void update_block(double* s, const double* l, double dt, double* out) const
+  template <class... Bent>
+  void update_block(double* s, const double* l, double dt, double* out, Bent&... bent) const
   {
     // dt L, and the midpoint gradient G = dt L (I + dt L / 2)^-1.
     Tensor a, middle = Tensor::identity(), whole = Tensor::identity();
@@ -118,7 +137,7 @@ class HypoelasticSolid final : public Law<3> {
     // does not, which is right to second order and costs no second rotation.
     const Symmetric half = half_increment(g);
     Symmetric t = (stress(s) + half).turned(rotation_of(g)) + half;
-    if constexpr (Plastic) return_radially(s, t);
+    if constexpr (Plastic) return_radially(s, t, bent...);
     store_scaled(t, 1.0, s + tau * lane_count);
     store_scaled(t, at(s, volume), out);
   }
@@ -136,20 +155,31 @@ class HypoelasticSolid final : public Law<3> {
   void return_radially(double* s, Symmetric& t) const
   {
     const Symmetric dev = t.deviator();
-    const Lanes squared = 1.5 * dev.squared();
-    const RadialReturn flow = flow_(squared, at(s, plastic_strain));
+    const RadialReturn flow = flow_(1.5 * dev.squared(), at(s, plastic_strain));
     if (!flow.any) return;
-    const Lanes& scale = flow.scale;
+    scale_deviator(flow.scale, dev, t);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
+  }
+  void return_radially(double* s, Symmetric& t, BrickBending& bent) const
+  {
+    const Symmetric dev = t.deviator();
+    const BrickReturn flow = bent_flow_(1.5 * dev.squared(), bent, at(s, plastic_strain));
+    if (!flow.any) return;
+    scale_deviator(flow.scale, dev, t);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain, flow.share_of_centre, bent.work());
+  }
+  static void scale_deviator(const Lanes& scale, const Symmetric& dev, Symmetric& t)
+  {
     const Lanes p = t.mean();
     t = {p + scale * dev.xx, p + scale * dev.yy, p + scale * dev.zz,
          scale * dev.xy,     scale * dev.yz,     scale * dev.xz};
-    record_flow(s, flow_columns, yield_, flow.plastic_strain);
   }
 
   IsotropicConstants elastic_;
   YieldConstants yield_;
   double density_;
   RadialFlow flow_;
+  BrickFlow bent_flow_;
 };
 
 }  // namespace

@@ -77,9 +77,9 @@ class NeoHookeanPlane final : public Law<2> {
   {
     return std::sqrt(elastic_.in_plane_modulus(Plane) / density_);
   }
-  Vec<2> bending_modulus() const override
+  BendingModuli<2> bending_moduli() const override
   {
-    return Vec<2>::Constant(elastic_.bending_modulus(Plane));
+    return {Vec<2>::Constant(elastic_.bending_modulus(Plane))};
   }
   /// Along the largest stretch: rho_0 c^2 = d tau / d ln(stretch) - tau. In plane stress the
   /// thickness gives way: d ln J / d ln(stretch) = 2 mu b_zz / (2 mu b_zz + lambda).
@@ -137,7 +137,8 @@ class NeoHookeanSolid final : public Law<3> {
 
  public:
   NeoHookeanSolid(const IsotropicConstants& elastic, double density)
-      : density_(density),
+      : bending_(elastic),
+        density_(density),
         mu_(elastic.shear_modulus()),
         lambda_(elastic.bulk_modulus() - 2.0 / 3.0 * mu_)
   {
@@ -185,6 +186,7 @@ class NeoHookeanSolid final : public Law<3> {
   Lanes volume_ratio(const double* s) const override { return stdx::sqrt(b_of(s).determinant()); }
 
   double wave_speed() const override { return std::sqrt((lambda_ + 2 * mu_) / density_); }
+  BendingModuli<3> bending_moduli() const override { return bending_; }
   /// Along the largest stretch: rho_0 c^2 = lambda (1 - ln J) + mu (1 + b_max), b_max bounded by
   /// mean and deviator.
   Lanes fastest_wave_squared(const double* s) const override
@@ -212,6 +214,7 @@ class NeoHookeanSolid final : public Law<3> {
             mu_ * b.xz};
   }
 
+  BendingModuli<3> bending_;
   double density_, mu_, lambda_;
 };
 

@@ -18,7 +18,9 @@ bool is_total_lagrangian(const scene::Numerics& numerics)
 std::string limited_by(const scene::Numerics& numerics)
 {
   if (is_total_lagrangian(numerics))
-    return fmt::format("cells in contact with stiffness {:.3g}", contact_stiffness(numerics));
+    return contact_stiffness(numerics) > 0
+               ? fmt::format("cells in contact with stiffness {:.3g}", contact_stiffness(numerics))
+               : std::string("cells that bend");
   return fmt::format("{} with {} and {}", numerics.shape_function->keyword,
                      numerics.scheme->keyword, numerics.update_order->keyword);
 }
@@ -110,8 +112,7 @@ template <int Dim>
 std::vector<Column> motion_columns(const scene::Numerics& numerics, int particles_per_cell,
                                    const Law<Dim>& law)
 {
-  if constexpr (Dim == 2)
-    if (is_total_lagrangian(numerics)) return LocationCells::columns(law);
+  if (is_total_lagrangian(numerics)) return LocationCells<Dim>::columns(law);
   return make_transfer<Dim>(numerics, particles_per_cell)
       ->motion_columns(numerics.update_order->remaps);
 }

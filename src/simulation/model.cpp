@@ -59,7 +59,7 @@ class BodyFiller {
     }
     motion(mass_, p) = body_.density * layout_.particle_volume;
     set_domain_at_rest<Dim>(motion, p, 0.5 * layout_.location_size);
-    if constexpr (Dim == 2) LocationCells::initialise(motion, p);
+    LocationCells<Dim>::initialise(motion, p);
     body_.particles.state()(0, p) = layout_.particle_volume;
     body_.law->initialise(body_.particles.state(), p);
   }

@@ -60,10 +60,10 @@ class Ring {
   Ring(MPI_Comm comm, const Scene& scene) : comm_(comm)
   {
     const Decomposition<2> decomposition = shared_out(comm, scene.periodic);
-    TotalLagrangian::Setup setup{
+    TotalLagrangian<2>::Setup setup{
         .bodies = {}, .location_size = size, .contact_stiffness = 4, .mass_scaling = 0.3};
     auto law = make_hencky(PlaneAssumption::strain, {youngs_modulus, 0.3}, density, scene.yield);
-    ParticleStore store(LocationCells::columns(*law), law->state_columns(),
+    ParticleStore store(LocationCells<2>::columns(*law), law->state_columns(),
                         {"velocity", "mass", "initial_volume", "plastic_work"});
     setup.bodies.push_back({"ring", 0, density, std::move(law), std::move(store)});
     Body<2>& body = setup.bodies.back();
@@ -84,7 +84,7 @@ class Ring {
                                            scene.velocity[1] + scene.turning * from_middle[0],
                                            density * size.prod()};
         for (int c = 0; c < 5; ++c) motion(c, p) = values[std::size_t(c)];
-        LocationCells::initialise(motion, p);
+        LocationCells<2>::initialise(motion, p);
         body.particles.state()(0, p) = size.prod();
         body.law->initialise(body.particles.state(), p);
       }
@@ -97,10 +97,10 @@ class Ring {
             WallPlacement{0, upper, face}, WallMotion{upper ? -wall_speed : wall_speed, 0},
             WallGrip::contact, ReactionBook{}));
       }
-    stepper_ = std::make_unique<TotalLagrangian>(decomposition, std::move(setup));
+    stepper_ = std::make_unique<TotalLagrangian<2>>(decomposition, std::move(setup));
   }
 
-  TotalLagrangian& stepper() { return *stepper_; }
+  TotalLagrangian<2>& stepper() { return *stepper_; }
   void advance(int steps)
   {
     const double wave = stepper_->bodies().front().law->wave_speed();
@@ -164,7 +164,7 @@ class Ring {
  private:
   MPI_Comm comm_;
   GlobalIndex cells_ = 0;
-  std::unique_ptr<TotalLagrangian> stepper_;
+  std::unique_ptr<TotalLagrangian<2>> stepper_;
 };
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b)

@@ -38,6 +38,21 @@ class ExactSolution(ProgramTest):
             self.assertLess(found["velocity_largest_error"], 1e-12)
             self.assertIn("displacement error", said)
 
+    def test_bricks_follow_flight_and_vibration_in_space(self):
+        bricks = ("--set", "numerics.formulation=total_lagrangian")
+        in_space = (FLYING.replace("0.25 m]", "0.25 m, 0.25 m]").replace("[0 m, 0 m]", "[0 m, 0 m, 0 m]")
+                    .replace("t/2, 0]", "t/2, 0, 0]").replace("t^2/4, 0]", "t^2/4, 0, 0]")
+                    .replace("[-0.5, 0]", "[-0.5, 0, 0]").replace("[8, 2]", "[8, 2, 2]"))
+        scene = self.folder / "flying_bricks.yaml"
+        scene.write_text(in_space)
+        for ranks in (1, 2):
+            found, _ = self.run_scene(scene, f"bricks{ranks}", ranks, bricks)
+            self.assertLess(found["displacement_largest_error"], 1e-12)
+            self.assertLess(found["velocity_largest_error"], 1e-12)
+        found, _ = self.run_scene(BENCHMARKS / "vibrating_bar_space.yaml", "bar", 1, bricks)
+        self.assertLess(found["displacement_relative_error"], 1e-3)
+        self.assertLess(found["velocity_relative_error"], 1e-3)
+
     def test_is_the_same_on_every_number_of_ranks(self):
         scene = BENCHMARKS / "vortex.yaml"
         one, _ = self.run_scene(scene, "one", 1, ("--set", "grid.cells=[24, 24]"))

@@ -66,15 +66,15 @@ template <int N>  // lane_count; a parameter so that branches for other widths a
   }
 }
 
-template <int N>
-[[gnu::always_inline]] inline void to_columns(const double* rows, std::size_t stride,
-                                              Vector<N> (&columns)[4])
+/// row(lane): where the row of a lane stands.
+template <int N, class Row>
+[[gnu::always_inline]] inline void to_columns(const Row& row, Vector<N> (&columns)[4])
 {
   using Column = Vector<N>;
   if constexpr (N == 8) {
     const auto both = [&](int first, int second) {
-      return __builtin_shufflevector(read<4>(rows + first * stride),
-                                     read<4>(rows + second * stride), 0, 1, 2, 3, 4, 5, 6, 7);
+      return __builtin_shufflevector(read<4>(row(first)), read<4>(row(second)), 0, 1, 2, 3, 4, 5, 6,
+                                     7);
     };
     const Column r02 = both(0, 2), r13 = both(1, 3), r46 = both(4, 6), r57 = both(5, 7);
     const Column ac_low = __builtin_shufflevector(r02, r13, 0, 8, 2, 10, 4, 12, 6, 14);
@@ -86,8 +86,8 @@ template <int N>
     columns[2] = __builtin_shufflevector(ac_low, ac_high, 2, 3, 6, 7, 10, 11, 14, 15);
     columns[3] = __builtin_shufflevector(bd_low, bd_high, 2, 3, 6, 7, 10, 11, 14, 15);
   } else if constexpr (N == 4) {
-    const Column r0 = read<N>(rows), r1 = read<N>(rows + stride), r2 = read<N>(rows + 2 * stride),
-                 r3 = read<N>(rows + 3 * stride);
+    const Column r0 = read<N>(row(0)), r1 = read<N>(row(1)), r2 = read<N>(row(2)),
+                 r3 = read<N>(row(3));
     const Column ac_low = __builtin_shufflevector(r0, r1, 0, 4, 2, 6);
     const Column bd_low = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);
     const Column ac_high = __builtin_shufflevector(r2, r3, 0, 4, 2, 6);
@@ -98,7 +98,7 @@ template <int N>
     columns[3] = __builtin_shufflevector(bd_low, bd_high, 2, 3, 6, 7);
   } else {
     for (int k = 0; k < 4; k += 2) {
-      const Column first = read<N>(rows + k), second = read<N>(rows + stride + k);
+      const Column first = read<N>(row(0) + k), second = read<N>(row(1) + k);
       columns[k] = __builtin_shufflevector(first, second, 0, 2);
       columns[k + 1] = __builtin_shufflevector(first, second, 1, 3);
     }
@@ -116,13 +116,19 @@ template <int N>
                                         std::bit_cast<V>(c), std::bit_cast<V>(d), rows, stride);
 }
 
-/// The inverse of `to_rows`: columns[k] collects value k of every row.
+/// The inverse of `to_rows`: columns[k] collects value k of every row; that of a lane stands at
+/// row(lane).
+template <class Row>
+[[gnu::always_inline]] inline void to_columns(const Row& row, Lanes (&columns)[4])
+{
+  transpose_detail::Vector<lane_count> found[4];
+  transpose_detail::to_columns<lane_count>(row, found);
+  for (int k = 0; k < 4; ++k) columns[k] = std::bit_cast<Lanes>(found[k]);
+}
 [[gnu::always_inline]] inline void to_columns(const double* rows, std::size_t stride,
                                               Lanes (&columns)[4])
 {
-  transpose_detail::Vector<lane_count> found[4];
-  transpose_detail::to_columns<lane_count>(rows, stride, found);
-  for (int k = 0; k < 4; ++k) columns[k] = std::bit_cast<Lanes>(found[k]);
+  to_columns([&](int lane) { return rows + lane * stride; }, columns);
 }
 
 }  // namespace mpm

@@ -5,7 +5,7 @@
 #include <mpm/grid/grid_topology.hpp>
 #include <mpm/grid/node_fields.hpp>
 
-#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace mpm {
@@ -32,10 +32,13 @@ class MeshNodes final : public Nodes<Dim> {
     return corners_[std::size_t(node)][axis] * location_size_[axis];
   }
   const IndexVec<Dim>& corner(LocalIndex node) const { return corners_[std::size_t(node)]; }
-  /// m, of all nodes.
-  const double* along(int axis) const { return places_[std::size_t(axis)].data(); }
-  /// x += dt v with the updated velocities. Returns the largest component of them, m/s.
-  double move(const NodeFields<Dim>& fields, double dt);
+  /// Component `axis` of the place of node i, m, is along(axis)[i * stride]: columns in the plane,
+  /// in space rows of four, which cells read at once.
+  static constexpr int stride = Dim == 2 ? 1 : 4;
+  const double* along(int axis) const { return places_.data() + axis * axis_stride(); }
+  /// x += dt v with the updated velocities, which become the momentum; forces are 0 then. Returns
+  /// the largest component of the velocities, m/s.
+  double move(NodeFields<Dim>& fields, double dt);
 
   /// m, that no node has gone farther along an axis since time 0.
   double way() const { return way_; }
@@ -50,7 +53,13 @@ class MeshNodes final : public Nodes<Dim> {
   std::vector<char> owned_;
   Vec<Dim> location_size_;
   IndexVec<Dim> period_;
-  std::array<LaneVector<double>, std::size_t(Dim)> places_;
+  std::ptrdiff_t axis_stride() const { return stride == 1 ? size() : 1; }
+  double& place(LocalIndex node, int axis)
+  {
+    return places_[std::size_t(node * std::ptrdiff_t(stride) + axis * axis_stride())];
+  }
+
+  LaneVector<double> places_;
   double way_ = 0;
   GlobalIndex listing_;
 };

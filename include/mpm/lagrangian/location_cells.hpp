@@ -1,30 +1,39 @@
 #pragma once
-/// The cells of one body in the plane: from the places of their corners to the forces on these.
+/// The cells of one body: from the places of their corners to the forces on these.
 
+#include <mpm/core/lane_vector.hpp>
 #include <mpm/grid/mesh_nodes.hpp>
-#include <mpm/lagrangian/location_cell.hpp>
+#include <mpm/lagrangian/brick_bending.hpp>
 #include <mpm/lagrangian/location_mesh.hpp>
+#include <mpm/lagrangian/plane_cell.hpp>
 #include <mpm/materials/body.hpp>
 
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace mpm {
 
 /// A cell is a particle: its columns are where a step of any kind has them, and `deformation` and,
-/// where the law flows, `plastic_bending` (1/m) beside them.
+/// where the law flows, `plastic_bending` beside them.
+template <int Dim>
 class LocationCells {
+  static constexpr int corners_of_cell = LocationMesh<Dim>::corners;
+
  public:
-  using CellNodes = std::array<LocalIndex, LocationMesh<2>::corners>;
-  /// Values that the forces of one block take: component d of corner c of lane l stands at
-  /// (2 c + d) * lane_count + l.
-  static constexpr int block_values = 2 * LocationMesh<2>::corners * lane_count;
+  using CellNodes = std::array<LocalIndex, std::size_t(corners_of_cell)>;
+  /// Where forces go, N. In the plane to [blocks * block_values], each cell's apart, for nodes that
+  /// gather them in lanes: component d of corner c of lane l at (2 c + d) * lane_count + l. In
+  /// space that would be as much memory to go through as all else together: they are added to the
+  /// nodes'.
+  using Forces = std::conditional_t<Dim == 2, double*, NodeFields<Dim>*>;
+  static constexpr int block_values = Dim * corners_of_cell * lane_count;
 
   /// `nodes` of each of the body's cells, in the order of its particles; `size` of a cell, m.
-  LocationCells(const Body<2>& body, std::span<const CellNodes> nodes, const Vec<2>& size);
+  LocationCells(const Body<Dim>& body, std::span<const CellNodes> nodes, const Vec<Dim>& size);
 
-  static std::vector<Column> columns(const Law<2>& law);
+  static std::vector<Column> columns(const Law<Dim>& law);
   /// A cell at rest; nothing where particles are no cells.
   static void initialise(ColumnGroup& motion, LocalIndex cell);
 
@@ -32,21 +41,23 @@ class LocationCells {
     LocalIndex cell;
     double jacobian;
   };
-  /// One step's deformation and stress. `forces`: [blocks * block_values], N, of each cell on its
-  /// corners. Returns the first cell that is inside out, or no longer a number.
-  std::optional<Inverted> update(Body<2>& body, const MeshNodes<2>& nodes, double dt,
-                                 double* forces) const;
+  /// One step's deformation and stress, and what each cell does to its corners. Returns the first
+  /// cell that is inside out, or no longer a number.
+  std::optional<Inverted> update(Body<Dim>& body, const MeshNodes<Dim>& nodes, double dt,
+                                 Forces forces) const;
 
   /// J, stored in bending and in corners that are held open.
-  double bending_energy(const Body<2>& body, const MeshNodes<2>& nodes) const;
+  double bending_energy(const Body<Dim>& body, const MeshNodes<Dim>& nodes) const;
   /// The present places and velocities of the cells' centres.
-  void fill_motion(Body<2>& body, const MeshNodes<2>& nodes, const NodeFields<2>& fields) const;
-  /// Squares of the least stretch of the cells of one block: in the middle, and less where a corner
-  /// is narrower.
-  Lanes least_stretch_squared(const MeshNodes<2>& nodes, LocalIndex block) const;
+  void fill_motion(Body<Dim>& body, const MeshNodes<Dim>& nodes,
+                   const NodeFields<Dim>& fields) const;
+  /// Squares of the least stretch of every cell, [blocks * lanes]: in the middle, and less where a
+  /// corner is narrower.
+  void find_least_stretches(const MeshNodes<Dim>& nodes, LaneVector<double>& squared) const;
   /// m/s, of the fastest wave across a cell, as if it had the size that it has at rest; stretches
   /// below `floor` count as that.
-  double wave_speed_at_rest(const Body<2>& body, const MeshNodes<2>& nodes, double floor) const;
+  double wave_speed_at_rest(const Body<Dim>& body, const LaneVector<double>& least_squared,
+                            double floor) const;
 
   /// [blocks * corners * lanes]; lanes of padding name those of a real cell.
   const std::vector<LocalIndex>& corner_nodes() const { return corner_nodes_; }
@@ -54,16 +65,26 @@ class LocationCells {
 
  private:
   struct Chunk;
-  Lanes deform(ParticleStore& cells, LocalIndex block, const MeshNodes<2>& nodes, double rate,
+  Lanes deform(ParticleStore& cells, LocalIndex block, const MeshNodes<Dim>& nodes, double rate,
                Chunk& chunk, int k) const;
-  void push(ParticleStore& cells, LocalIndex block, const MeshNodes<2>& nodes, const Chunk& chunk,
-            int k, double* out) const;
-  CellCorners corners(const MeshNodes<2>& nodes, LocalIndex block) const;
+  void push(ParticleStore& cells, LocalIndex block, const MeshNodes<Dim>& nodes, const Chunk& chunk,
+            int k, Forces forces) const;
+  void put_forces(const CellCorners<Dim>& force, LocalIndex block, Forces forces) const;
+  CellCorners<Dim> corners(const MeshNodes<Dim>& nodes, LocalIndex block) const;
 
-  CellFrame frame_;
+  /// Columns of what is plastic of the modes; none where the law does not flow.
+  const double* plastic_of(const double* motion) const
+  {
+    return plastic_bending_ < 0 ? nullptr : motion + plastic_bending_ * lane_count;
+  }
+  double* plastic_of(double* motion) const
+  {
+    return const_cast<double*>(plastic_of(static_cast<const double*>(motion)));
+  }
+
+  CellFrame<Dim> frame_;
+  CellBending<Dim> bending_;
   int deformation_, plastic_bending_;
-  Vec<2> fibre_stress_;    ///< Pa m: (m / (V0 h / 4)) over the elastic bending
-  Vec<2> bending_;         ///< Pa m^2: m / V0 over the elastic bending
   double corner_modulus_;  ///< Pa
   std::vector<LocalIndex> corner_nodes_;
 };

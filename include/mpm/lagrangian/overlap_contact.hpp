@@ -4,8 +4,8 @@
 
 #include <mpm/core/lane_vector.hpp>
 #include <mpm/core/lanes.hpp>
-#include <mpm/grid/mesh_nodes.hpp>
 #include <mpm/lagrangian/overlap_potential.hpp>
+#include <mpm/lagrangian/self_contact.hpp>
 #include <mpm/parallel/ghosts.hpp>
 
 #include <array>
@@ -25,7 +25,7 @@ namespace mpm {
 ///
 /// Each rank keeps the pairs of its own cells with others; of those on other ranks, and of
 /// images across periodic sides, it holds copies.
-class OverlapContact {
+class OverlapContact final : public SelfContact<2> {
  public:
   struct Cell {
     std::array<LocalIndex, 4> nodes;  ///< counter-clockwise
@@ -40,30 +40,28 @@ class OverlapContact {
   OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec<2>& size,
                  const IndexVec<2>& period);
 
-  /// Finds all pairs that can meet before a node has moved by half of `skin`, m. Collective.
-  void find_pairs(const MeshNodes<2>& nodes, double skin);
-  double skin() const { return skin_; }
-  /// The largest way of a node of this rank's since then, m.
-  double largest_way(const MeshNodes<2>& nodes) const;
-  /// Overlaps at the present places. Every rank calls it.
-  void measure(const MeshNodes<2>& nodes);
+  void find_pairs(const MeshNodes<2>& nodes, double skin) override;
+  double skin() const override { return skin_; }
+  double largest_way(const MeshNodes<2>& nodes) const override;
+  void measure(const MeshNodes<2>& nodes) override;
 
-  // At the last call of `measure`, of this rank's cells.
-  void add_forces(NodeFields<2>& fields) const;
-  /// To friction[node * 2 + axis], N. Every rank calls it. `coefficient`: Coulomb's.
+  void add_forces(NodeFields<2>& fields) const override;
   void add_friction(const NodeFields<2>& fields, double coefficient, double dt,
-                    std::span<double> friction);
-  double energy() const { return energy_; }  ///< J
-  double overlapped_area() const;  ///< m^2; every overlap counts once on either cell, half each
-  GlobalIndex touching() const { return touching_; }  ///< pairs, with others' halves
+                    std::span<double> friction) override;
+  double energy() const override { return energy_; }
+  double overlapped_area() const override;
+  GlobalIndex touching() const override { return touching_; }
 
-  GlobalIndex messages() const { return ghosts_.messages() + side_ghosts_.messages(); }
-  GlobalIndex bytes_sent() const { return ghosts_.bytes_sent() + side_ghosts_.bytes_sent(); }
-  double waiting_seconds() const
+  GlobalIndex messages() const override { return ghosts_.messages() + side_ghosts_.messages(); }
+  GlobalIndex bytes_sent() const override
+  {
+    return ghosts_.bytes_sent() + side_ghosts_.bytes_sent();
+  }
+  double waiting_seconds() const override
   {
     return ghosts_.waiting_seconds() + side_ghosts_.waiting_seconds();
   }
-  std::size_t bytes() const;
+  std::size_t bytes() const override;
 
  private:
   /// first: a cell of this rank.

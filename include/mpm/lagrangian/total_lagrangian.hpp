@@ -3,7 +3,7 @@
 /// lattice, which share nodes where they were neighbours at the start and only there.
 
 #include <mpm/lagrangian/location_cells.hpp>
-#include <mpm/lagrangian/overlap_contact.hpp>
+#include <mpm/lagrangian/self_contact.hpp>
 #include <mpm/parallel/halo.hpp>
 #include <mpm/stepping/formulation.hpp>
 #include <mpm/stepping/loss.hpp>
@@ -15,15 +15,16 @@ namespace mpm {
 /// Central differences: velocities stand half a step before places and stresses. Places and
 /// velocities live on the nodes. There is no sort, no migration and no activity; the halo never
 /// changes, and a step has no collective.
-class TotalLagrangian final : public Formulation<2> {
+template <int Dim>
+class TotalLagrangian final : public Formulation<Dim> {
  public:
   struct Setup {
-    std::vector<Body<2>> bodies;  ///< particles at the centres of their locations
-    Slots<2> slots{};
-    Vec<2> location_size;  ///< m
-    double thickness = 1;  ///< m
+    std::vector<Body<Dim>> bodies;  ///< particles at the centres of their locations
+    Slots<Dim> slots{};
+    Vec<Dim> location_size;  ///< m
+    double thickness = 1;    ///< m, of the plane
     /// kappa: across a flush face the pressure of contact is 2 kappa C times the depth over the
-    /// size of a location. 0: bodies go through each other.
+    /// size of a location. 0, and always so in space: bodies go through each other.
     double contact_stiffness = 2;
     double friction = 0;  ///< Coulomb's coefficient of contact
     /// Cells with a smaller least stretch are made heavier by the square of this over it, so that
@@ -31,7 +32,7 @@ class TotalLagrangian final : public Formulation<2> {
     double mass_scaling = 0.8;
   };
 
-  TotalLagrangian(Decomposition<2> decomposition, Setup setup);
+  TotalLagrangian(Decomposition<Dim> decomposition, Setup setup);
 
   void step(double dt) override;
   void check() override;
@@ -39,29 +40,32 @@ class TotalLagrangian final : public Formulation<2> {
 
   double time() const override { return time_; }
   GlobalIndex steps() const override { return steps_; }
-  const std::vector<Body<2>>& bodies() const override;
-  const Decomposition<2>& decomposition() const override { return decomposition_; }
+  const std::vector<Body<Dim>>& bodies() const override;
+  const Decomposition<Dim>& decomposition() const override { return decomposition_; }
   LocalIndex active_nodes() const override { return nodes_->size(); }
-  Carried<2> carried() const override;
+  Carried<Dim> carried() const override;
   bool has_friction() override { return !friction_.empty(); }
-  Reaction<2> take_reaction() override { return scaling_.take(); }
+  Reaction<Dim> take_reaction() override { return given_.take(); }
   double stress_moment() const override { return 0.5; }
-  Slots<2>& slots() override { return setup_.slots; }
+  Slots<Dim>& slots() override { return setup_.slots; }
   double largest_step() const override { return setup_.slots.largest_step(); }
 
   bool can_repartition() const override { return false; }
-  GlobalIndex repartition(const Ownership<2>& ownership) override;
-  void visit_work(const std::function<void(const IndexVec<2>&, double)>& visit) const override;
+  GlobalIndex repartition(const Ownership<Dim>& ownership) override;
+  void visit_work(const std::function<void(const IndexVec<Dim>&, double)>& visit) const override;
 
   Counters counters() const override;
   std::size_t bytes() const override;
   void archive(Archive& archive) override;
-  void begin_loading(const Ownership<2>& ownership) override;
+  void begin_loading(const Ownership<Dim>& ownership) override;
 
  private:
+  using CellNodes = typename LocationCells<Dim>::CellNodes;
+  using Formulation<Dim>::steps_between_checks;
+
   void make_mesh();
-  void make_contact(const std::vector<LocationCells::CellNodes>& cells,
-                    const std::function<int(const IndexVec<2>&)>& rank_of);
+  void make_contact(const std::vector<CellNodes>& cells,
+                    const std::function<int(const IndexVec<Dim>&)>& rank_of);
   void list_node_terms();
   void add_masses();
   void add_forces(double dt);
@@ -70,37 +74,40 @@ class TotalLagrangian final : public Formulation<2> {
   void add_loads_on_particles();
   void look_for_pairs(double way);
   void scale_masses();
-  IndexVec<2> location_of(const Body<2>& body, LocalIndex particle) const;
-  IndexVec<2> period() const;
-  std::span<const NodeRun<2>> runs() const { return {&run_, 1}; }
+  IndexVec<Dim> location_of(const Body<Dim>& body, LocalIndex particle) const;
+  IndexVec<Dim> period() const;
+  std::span<const NodeRun<Dim>> runs() const { return {&run_, 1}; }
 
-  Decomposition<2> decomposition_;
+  Decomposition<Dim> decomposition_;
   /// Its particles' places and velocities follow the nodes when they are asked for.
   mutable Setup setup_;
   mutable bool particles_are_present_ = true;
 
-  std::optional<MeshNodes<2>> nodes_;
-  std::optional<NodeFields<2>> fields_;
+  std::optional<MeshNodes<Dim>> nodes_;
+  std::optional<NodeFields<Dim>> fields_;
   std::optional<Halo> halo_;
-  NodeRun<2> run_;
-  std::vector<LocationCells> cells_;  ///< of each body
+  NodeRun<Dim> run_;
+  std::vector<LocationCells<Dim>> cells_;            ///< of each body
+  std::vector<LaneVector<double>> least_stretches_;  ///< squared, of their cells at the last check
+  // In the plane, where nodes gather what cells do to them.
   std::vector<std::size_t> first_force_;
   LaneVector<double> cell_forces_;  ///< all bodies' blocks, and a block of zeros
   /// Per lane_count nodes and corner: where in cell_forces_ the x component stands.
   std::vector<std::int32_t> node_terms_;
-  std::optional<OverlapContact> contact_;
-  std::vector<double> friction_;  ///< [nodes * 2], N; empty without
+  std::unique_ptr<SelfContact<Dim>> contact_;
+  std::vector<double> friction_;  ///< [nodes * Dim], N; empty without
   double friction_work_ = 0;      ///< J, of this rank's nodes since the start
 
   std::vector<double> first_masses_;  ///< kg, of the nodes
-  Reaction<2> scaling_;               ///< of masses that come and go, this rank's nodes
+  /// By masses that come and go, and by friction; to this rank's nodes.
+  Reaction<Dim> given_;
 
   double time_ = 0, last_step_ = 0;
   GlobalIndex steps_ = 0;
   Agreed agreed_;
   GlobalIndex checked_ = 0;
   double largest_speed_ = 0;  ///< m/s, of a node since the last check
-  std::optional<Loss<2>> loss_;
+  std::optional<Loss<Dim>> loss_;
 };
 
 }  // namespace mpm

@@ -4,6 +4,7 @@
 
 #include <mpm/core/lanes.hpp>
 #include <mpm/core/types.hpp>
+#include <mpm/materials/bending.hpp>
 #include <mpm/particles/particle_store.hpp>
 
 #include <memory>
@@ -35,18 +36,15 @@ class Law {
   /// symmetric_components columns of lanes, J.
   virtual void update(double* state, int blocks, const double* gradient, double dt,
                       double* force_stress) const = 0;
-  /// Modulus against bending of fibres along each axis in the undeformed material, Pa: of a plate
-  /// of unit width, 12 / thickness^3 times its stiffness. 0 for a law that cannot tell.
-  virtual Vec<Dim> bending_modulus() const { return Vec<Dim>::Zero(); }
-  /// The same for a cell that also bends. `bending` holds two columns of lanes per block. In: the
-  /// sum over the axes of (m / (V0 h / 4))^2, Pa^2, by the moments m that it would bend with
-  /// elastically, J, and its thickness h; and their energy, J. Out: in the first column what share
-  /// of these moments the yield stress leaves, the same as of the deviator at its centre.
+  virtual BendingModuli<Dim> bending_moduli() const { return {}; }
+  /// The same as `update` for a cell that also bends; `bending` as in bending.hpp.
   virtual void update_bent(double* state, int blocks, const double* gradient, double dt,
                            double* force_stress, double* bending) const
   {
     update(state, blocks, gradient, dt, force_stress);
-    for (int k = 0; k < blocks; ++k) store(Lanes(1.0), bending + 2 * k * lane_count);
+    for (int k = 0; k < blocks; ++k)
+      for (int share = 0; share < bending_shares<Dim>; ++share)
+        store(Lanes(1.0), bending + (bending_columns<Dim> * k + share) * lane_count);
   }
   /// V0 tau of the present state, without changing it.
   virtual void force_stress(const double* state, int blocks, double* force_stress) const = 0;

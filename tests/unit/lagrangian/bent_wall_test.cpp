@@ -26,16 +26,17 @@ class BentCell {
       : body_{"wall", 0, density, std::move(law), store_of()},
         nodes_({{0, 0}, {1, 0}, {0, 1}, {1, 1}}, {1, 1, 1, 1}, size, IndexVec<2>::Zero()),
         fields_(4, {.gradient = false}, 0),
-        forces_(LocationCells::block_values, 0.0)
+        forces_(LocationCells<2>::block_values, 0.0)
   {
-    body_.particles = ParticleStore(LocationCells::columns(*body_.law), body_.law->state_columns(),
-                                    {"velocity", "mass", "initial_volume", "plastic_work"});
+    body_.particles =
+        ParticleStore(LocationCells<2>::columns(*body_.law), body_.law->state_columns(),
+                      {"velocity", "mass", "initial_volume", "plastic_work"});
     body_.particles.add(0);
     body_.particles.state()(0, 0) = volume;
     body_.law->initialise(body_.particles.state(), 0);
-    LocationCells::initialise(body_.particles.motion(), 0);
+    LocationCells<2>::initialise(body_.particles.motion(), 0);
     body_.particles.seal();
-    const LocationCells::CellNodes corners{0, 1, 2, 3};
+    const LocationCells<2>::CellNodes corners{0, 1, 2, 3};
     cells_.emplace(body_, std::span(&corners, 1), size);
   }
 
@@ -79,7 +80,7 @@ class BentCell {
   MeshNodes<2> nodes_;
   NodeFields<2> fields_;
   LaneVector<double> forces_;
-  std::optional<LocationCells> cells_;
+  std::optional<LocationCells<2>> cells_;
   double work_ = 0;
 };
 

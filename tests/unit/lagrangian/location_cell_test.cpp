@@ -1,5 +1,5 @@
 // Cells of one point: patch test, exact bending, and forces that are the gradient of an energy.
-#include <mpm/lagrangian/location_cell.hpp>
+#include <mpm/lagrangian/plane_cell.hpp>
 #include <mpm/materials/elastic_constants.hpp>
 #include <mpm/materials/hencky.hpp>
 
@@ -27,12 +27,12 @@ Places at_rest()
   return places;
 }
 
-CellCorners in_all_lanes(const Places& places)
+CellCorners<2> in_all_lanes(const Places& places)
 {
-  CellCorners corners;
+  CellCorners<2> corners;
   for (int k = 0; k < 4; ++k) {
-    corners.x[k] = places(0, k);
-    corners.y[k] = places(1, k);
+    corners.along[0][k] = places(0, k);
+    corners.along[1][k] = places(1, k);
   }
   return corners;
 }
@@ -57,8 +57,8 @@ Bent bend_to(const Places& places)
     state(0, lane) = volume;
     law->initialise(state, lane);
   }
-  const CellFrame frame(size);
-  const CellDeformation deformation(in_all_lanes(places), frame);
+  const CellFrame<2> frame(size);
+  const CellDeformation<2> deformation(in_all_lanes(places), frame);
   alignas(lane_alignment) double gradient[4 * lane_count], stress[3 * lane_count];
   for (int k = 0; k < 4; ++k)
     store(deformation.f[k] - (k % 3 == 0 ? 1.0 : 0.0), gradient + k * lane_count);
@@ -71,8 +71,8 @@ Bent bend_to(const Places& places)
     moment[j] = stiffness(j) * deformation.bending[j];
     bent.energy += 0.5 * stiffness(j) * deformation.bending[j][0] * deformation.bending[j][0];
   }
-  const CellCorners force = corner_forces(deformation, tau, moment, frame);
-  for (int k = 0; k < 4; ++k) bent.force.col(k) << force.x[k][0], force.y[k][0];
+  const CellCorners<2> force = corner_forces(deformation, tau, moment, frame);
+  for (int k = 0; k < 4; ++k) bent.force.col(k) << force.along[0][k][0], force.along[1][k][0];
   return bent;
 }
 
@@ -83,7 +83,7 @@ TEST(LocationCell, IsStretchedAndBentAsItsCornersSay)
   const Eigen::Vector2d b(0.4, -0.7);
   Places places = f * at_rest();
   for (int k = 0; k < 4; ++k) places.col(k) += f * b * at_rest()(0, k) * at_rest()(1, k);
-  const CellDeformation found(in_all_lanes(places), CellFrame(size));
+  const CellDeformation<2> found(in_all_lanes(places), CellFrame<2>(size));
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(found.f[k][0], f(k % 2, k / 2), 1e-14);
   for (int j = 0; j < 2; ++j) EXPECT_NEAR(found.bending[j][0], b[j], 1e-13);
 }
@@ -123,7 +123,7 @@ TEST(LocationCell, IsNeitherStretchedNorBentByATurn)
 
 TEST(LocationCell, IsHeldOpenByForcesThatAreTheGradientOfAnEnergy)
 {
-  const CellFrame frame(size);
+  const CellFrame<2> frame(size);
   constexpr double stiffness = 0.7, step = 1e-6;
   const auto energy = [&](const Places& places) {
     const Lanes energy = corner_energy(in_all_lanes(places), stiffness, frame);
@@ -135,7 +135,7 @@ TEST(LocationCell, IsHeldOpenByForcesThatAreTheGradientOfAnEnergy)
   for (int trial = 0; trial < 200; ++trial) {
     Places places = at_rest();
     for (double& value : places.reshaped()) value += around(random);
-    CellCorners force{};
+    CellCorners<2> force{};
     add_corner_forces(in_all_lanes(places), stiffness, frame, force);
     held += energy(places) > 0;
     Eigen::Vector2d sum(0, 0);
@@ -143,7 +143,7 @@ TEST(LocationCell, IsHeldOpenByForcesThatAreTheGradientOfAnEnergy)
       Places above = places, below = places;
       above(i % 2, i / 2) += step;
       below(i % 2, i / 2) -= step;
-      const double found = (i % 2 == 0 ? force.x : force.y)[i / 2][0];
+      const double found = force.along[i % 2][i / 2][0];
       ASSERT_NEAR(found, -(energy(above) - energy(below)) / (2 * step), 1e-5) << trial << ", " << i;
       sum[i % 2] += found;
     }

@@ -1,0 +1,41 @@
+#pragma once
+/// What a total Lagrangian step knows of the contact of its cells with each other.
+
+#include <mpm/grid/mesh_nodes.hpp>
+
+#include <span>
+
+namespace mpm {
+
+/// Pairs of cells that can meet are found now and then, what they bear in every step. Each rank
+/// answers for its own cells.
+template <int Dim>
+class SelfContact {
+ public:
+  virtual ~SelfContact() = default;
+
+  /// Finds all pairs that can meet before a node has moved by half of `skin`, m. Collective.
+  virtual void find_pairs(const MeshNodes<Dim>& nodes, double skin) = 0;
+  virtual double skin() const = 0;
+  /// The largest way of a node of this rank's since then, m.
+  virtual double largest_way(const MeshNodes<Dim>& nodes) const = 0;
+  /// Overlaps at the present places. Every rank calls it.
+  virtual void measure(const MeshNodes<Dim>& nodes) = 0;
+
+  // At the last call of `measure`, of this rank's cells.
+  virtual void add_forces(NodeFields<Dim>& fields) const = 0;
+  /// To friction[node * Dim + axis], N. Every rank calls it. `coefficient`: Coulomb's.
+  virtual void add_friction(const NodeFields<Dim>& fields, double coefficient, double dt,
+                            std::span<double> friction) = 0;
+  virtual double energy() const = 0;  ///< J
+  /// m^2, in space m^3; every overlap counts once on either cell, half each
+  virtual double overlapped_area() const = 0;
+  virtual GlobalIndex touching() const = 0;  ///< pairs, with others' halves
+
+  virtual GlobalIndex messages() const = 0;
+  virtual GlobalIndex bytes_sent() const = 0;
+  virtual double waiting_seconds() const = 0;
+  virtual std::size_t bytes() const = 0;
+};
+
+}  // namespace mpm

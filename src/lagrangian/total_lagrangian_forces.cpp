@@ -1,0 +1,117 @@
+/// Forces on the nodes: of the cells, of contact and of loads.
+
+#include <mpm/lagrangian/total_lagrangian.hpp>
+
+#include <algorithm>
+
+namespace mpm {
+
+template <int Dim>
+void TotalLagrangian<Dim>::add_forces(double dt)
+{
+  for (std::size_t b = 0; b < cells_.size(); ++b) {
+    Body<Dim>& body = setup_.bodies[b];
+    typename LocationCells<Dim>::Forces forces{};
+    if constexpr (Dim == 2)
+      forces = cell_forces_.data() + first_force_[b];
+    else
+      forces = &*fields_;
+    const auto inverted = cells_[b].update(body, *nodes_, dt, forces);
+    if (!inverted || loss_) continue;
+    cells_[b].fill_motion(body, *nodes_, *fields_);
+    LostParticle<Dim> lost = lost_particle<Dim>(body.particles, inverted->cell);
+    lost.fault = Fault::inverted;
+    lost.ratio = inverted->jacobian;
+    loss_ = Loss<Dim>{lost, body.name, {steps_, time_ - dt}};
+  }
+  if constexpr (Dim == 2) gather_cell_forces();
+  if (contact_) {
+    contact_->measure(*nodes_);
+    contact_->add_forces(*fields_);
+    if (!friction_.empty()) {
+      std::fill(friction_.begin(), friction_.end(), 0.0);
+      contact_->add_friction(*fields_, setup_.friction, dt, friction_);
+    }
+  }
+  std::vector<NodeColumn> columns{fields_->force_column()};
+  if (!friction_.empty()) columns.push_back({friction_.data(), Dim, Dim});
+  if (setup_.slots.loads.act_on_particles()) columns.push_back(fields_->load_force_column());
+  add_loads_on_particles();
+  halo_->sum(columns);
+  for (LocalIndex node = 0; node < LocalIndex(friction_.size() / Dim); ++node)
+    for (int d = 0; d < Dim; ++d)
+      fields_->force_of(node)[d] += friction_[std::size_t(node) * Dim + std::size_t(d)];
+}
+
+/// What it took from the bodies in the step that ends.
+template <int Dim>
+void TotalLagrangian<Dim>::book_friction(double dt)
+{
+  for (LocalIndex node = 0; node < LocalIndex(friction_.size() / Dim); ++node) {
+    if (!nodes_->is_owned(node)) continue;
+    const double* u = fields_->updated_of(node);
+    for (int d = 0; d < Dim; ++d) {
+      const double work =
+          dt * friction_[std::size_t(node) * Dim + std::size_t(d)] * (u[d] - 0.5 * u[Dim + d]);
+      given_.work += work;
+      friction_work_ -= work;
+    }
+  }
+}
+
+/// f_i of the cells at a node, and no load yet.
+template <int Dim>
+void TotalLagrangian<Dim>::gather_cell_forces()
+{
+  constexpr int corners = LocationMesh<Dim>::corners;
+  const double* forces = cell_forces_.data();
+  const std::int32_t* term = node_terms_.data();
+  for (LocalIndex first = 0; first < nodes_->size(); first += lane_count) {
+    alignas(lane_alignment) double terms[Dim][corners * lane_count];
+    for (int k = 0; k < corners * lane_count; ++k)
+      for (int d = 0; d < Dim; ++d) terms[d][k] = forces[term[k] + d * lane_count];
+    term += corners * lane_count;
+    Lanes sum[Dim];
+    for (int d = 0; d < Dim; ++d) {
+      sum[d] = load(terms[d]);
+      for (int c = 1; c < corners; ++c) sum[d] += load(terms[d] + c * lane_count);
+    }
+    const int count = std::min<LocalIndex>(lane_count, nodes_->size() - first);
+    for (int lane = 0; lane < count; ++lane)
+      for (int d = 0; d < Dim; ++d) fields_->force_of(first + lane)[d] = sum[d][lane];
+  }
+}
+
+/// An equal part of each to each corner of its cell, as a partial sum.
+template <int Dim>
+void TotalLagrangian<Dim>::add_loads_on_particles()
+{
+  const Loads<Dim>& loads = setup_.slots.loads;
+  std::fill(fields_->load_force.begin(), fields_->load_force.end(), 0.0);
+  if (!loads.act_on_particles()) return;
+  constexpr int corners = LocationMesh<Dim>::corners;
+  const std::vector<Body<Dim>>& bodies = this->bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    for (LocalIndex block = 0; block < bodies[b].particles.blocks(); ++block) {
+      Lanes force[Dim];
+      for (Lanes& component : force) component = 0.0;
+      loads.add_to_particles(bodies[b], block, time_, force);
+      const LocalIndex* node = &cells_[b].corner_nodes()[std::size_t(block) * corners * lane_count];
+      const int count =
+          std::min<LocalIndex>(lane_count, bodies[b].particles.size() - block * lane_count);
+      for (int lane = 0; lane < count; ++lane)
+        for (int c = 0; c < corners; ++c)
+          for (int d = 0; d < Dim; ++d)
+            fields_->load_force[std::size_t(node[c * lane_count + lane]) * Dim + std::size_t(d)] +=
+                force[d][lane] / corners;
+    }
+}
+
+template void TotalLagrangian<2>::add_forces(double);
+template void TotalLagrangian<3>::add_forces(double);
+template void TotalLagrangian<2>::book_friction(double);
+template void TotalLagrangian<3>::book_friction(double);
+template void TotalLagrangian<2>::add_loads_on_particles();
+template void TotalLagrangian<3>::add_loads_on_particles();
+
+}  // namespace mpm
