@@ -22,7 +22,7 @@ class Contact(ProgramTest):
     def test_a_wall_that_pushes_is_as_soft_as_its_contact_and_books_all_energy(self):
         """A location over kappa at each end of the 40 of the block, less the half one between the
         wall and the particle that it pushes."""
-        for kappa, softer in ((0.5, (4 - 1) / 40), (4, (0.5 - 1) / 40)):
+        for kappa, softer in ((0.25, (8 - 1) / 40), (1, (2 - 1) / 40)):
             history = History(self.results("confined_block", *PUSHED, "loading.strain=1 %",
                                            f"numerics.contact_stiffness={kappa}",
                                            label=f"kappa_{kappa}"))
