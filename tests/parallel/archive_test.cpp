@@ -103,7 +103,7 @@ class SavedRun : public ::testing::TestWithParam<Method> {
     add(false, 4 * cell, 0);
     // And one that pushes the first block from above.
     walls.push_back(std::make_unique<RigidWall<2>>(
-        WallPlacement{1, true, 16.98 * cell}, WallMotion{}, WallGrip::contact, book,
+        WallPlacement{1, true, 17 * cell}, WallMotion{}, WallGrip::contact, book,
         WallStiffness<2>{0.5, Vec<2>::Constant(0.5 * cell)}));
     const YieldConstants yield{0.01 * youngs_modulus, 0.1 * youngs_modulus};
     return {{MPI_COMM_WORLD, ownership},
