@@ -112,12 +112,11 @@ void BodyContact<Dim>::exchange_momentum(const GridTopology<Dim>&,
       before[d] = increments * (approach[d] - u[Dim + d] + v[Dim + d]);
     }
     Vec<Dim> taken = approach, of_start = before;
-    meeting.closed = meeting.stuck = true;
     if (meeting.friction) {
       const double along_normal = approach.dot(meeting.normal), allowed = allowed_in(meeting, dt);
       const double closing = along_normal - allowed;
-      meeting.closed = closing > 0;
-      if (!meeting.closed) return;
+      if (closing <= 0) return;
+      meeting.closed = true;
       const double normal_before = before.dot(meeting.normal);
       const double closing_before = std::max(0.0, normal_before - increments * allowed);
       const Vec<Dim> slip = approach - along_normal * meeting.normal;
@@ -155,8 +154,8 @@ void BodyContact<Dim>::exchange_gradient(const GridTopology<Dim>&,
         for (int d = 0; d < Dim; ++d) approach[d] = u[d] - v[d];
         Vec<Dim> taken = approach;
         if (meeting.friction) {
-          const double along_normal = approach.dot(meeting.normal);
           if (!meeting.closed) return;
+          const double along_normal = approach.dot(meeting.normal);
           taken = (along_normal - allowed_in(meeting, dt)) * meeting.normal;
           if (meeting.stuck) taken += approach - along_normal * meeting.normal;
         }

@@ -90,7 +90,7 @@ void expect_same_bits(BlockRun& a, BlockRun& b)
 
 class SavedRun : public ::testing::TestWithParam<Method> {
  protected:
-  /// A piston, an edge, a block that flows and one that flies into it.
+  /// A piston, an edge, walls that push, a block that flows and one that flies into it.
   static BlockRun pressed(const Ownership<2>& ownership)
   {
     const ReactionBook book = GetParam().scheme->book;
@@ -101,6 +101,11 @@ class SavedRun : public ::testing::TestWithParam<Method> {
     };
     add(true, 26 * cell, -speed);
     add(false, 4 * cell, 0);
+    // And two that push the first block from below and above.
+    for (const bool upper : {false, true})
+      walls.push_back(std::make_unique<RigidWall<2>>(
+          WallPlacement{1, upper, (upper ? 17 : 4) * cell}, WallMotion{}, WallGrip::contact, book,
+          WallStiffness<2>{0.5, Vec<2>::Constant(0.5 * cell)}));
     const YieldConstants yield{0.01 * youngs_modulus, 0.1 * youngs_modulus};
     return {{MPI_COMM_WORLD, ownership},
             GetParam(),

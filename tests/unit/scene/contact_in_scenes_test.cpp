@@ -99,7 +99,9 @@ TEST_F(ContactInScenes, AStiffnessIsOfSomethingThatTouches)
       ElementsAre("a.yaml:8:64: numerics.contact_stiffness is 0 (walls with grip: contact would "
                   "hold nothing back). Leave it out."));
   EXPECT_EQ(contact_stiffness({}), 0.5);
-  EXPECT_EQ(contact_stiffness({.formulation = FormulationKind::total_lagrangian}), 2);
+  Numerics total;
+  total.formulation = FormulationKind::total_lagrangian;
+  EXPECT_EQ(contact_stiffness(total), 2);
 }
 
 }  // namespace
