@@ -5,6 +5,19 @@
 
 namespace mpm {
 
+namespace {
+
+/// Of nodes, along an axis, m.
+template <int Dim>
+auto places_along(const MeshNodes<Dim>& nodes, int axis)
+{
+  return [along = nodes.along(axis)](LocalIndex node) {
+    return along[std::ptrdiff_t(node) * MeshNodes<Dim>::stride];
+  };
+}
+
+}  // namespace
+
 template <int Dim>
 RigidWall<Dim>::RigidWall(const WallPlacement& placement, const WallMotion& motion, WallGrip grip,
                           ReactionBook book, const WallStiffness<Dim>& stiffness)
@@ -80,12 +93,13 @@ void RigidWall<Dim>::find_near(const MeshNodes<Dim>& nodes, double face)
       nodes.way() - near_->way + std::abs(face - near_->face) < 0.5 * reach)
     return;
   near_ = Near{nodes.way(), face, {}, {}};
+  const auto at = places_along(nodes, axis);
   for (LocalIndex node = 0; node < nodes.size(); ++node) {
     const bool held = grip_ != WallGrip::contact &&
                       std::abs(nodes.rest(node, axis) - placement_.position) < 1e-9 * reach;
     if (held)
       near_->held.push_back(node);
-    else if (side * (nodes.position(node)[axis] - face) > -reach)
+    else if (side * (at(node) - face) > -reach)
       near_->nodes.push_back(node);
   }
 }
@@ -99,9 +113,7 @@ void RigidWall<Dim>::stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, 
   const int axis = placement_.axis;
   const double face = position(time + dt), side = placement_.upper ? 1 : -1;
   find_near(nodes, face);
-  const auto at = [along = nodes.along(axis)](LocalIndex node) {
-    return along[std::ptrdiff_t(node) * MeshNodes<Dim>::stride];
-  };
+  const auto at = places_along(nodes, axis);
   const auto put_to_face = [&](LocalIndex node) {
     const bool owned = nodes.is_owned(node);
     for (int d = 0; d < Dim; ++d)

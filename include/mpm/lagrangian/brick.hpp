@@ -4,7 +4,7 @@
 
 #include <mpm/core/lane_matrix.hpp>
 #include <mpm/lagrangian/location_cell.hpp>
-#include <mpm/materials/space_tensor.hpp>
+#include <mpm/materials/space_spectrum.hpp>
 
 namespace mpm {
 
@@ -161,23 +161,9 @@ inline Lanes least_stretch_squared(const CellDeformation<3>& now)
     return now.f[3 * i] * now.f[3 * j] + now.f[3 * i + 1] * now.f[3 * j + 1] +
            now.f[3 * i + 2] * now.f[3 * j + 2];
   };
-  const Symmetric c{at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)};
-  const Lanes jacobian = now.jacobian();
-  const Lanes one = c.trace(), two = 0.5 * (one * one - c.squared()), three = jacobian * jacobian;
-  // Laguerre's method for l^3 - one l^2 + two l - three comes to the least root from below: four
-  // steps leave out 0.2 % at most, where two roots coincide. A value that is rounding error only
-  // would lead it astray.
-  Lanes least = three / two;
-  for (int iteration = 0; iteration < 4; ++iteration) {
-    const Lanes value = ((least - one) * least + two) * least - three,
-                size = ((least + one) * least + two) * least + three,
-                slope = (3.0 * least - 2.0 * one) * least + two, curved = 6.0 * least - 2.0 * one;
-    const Lanes root =
-        stdx::sqrt(stdx::max(4.0 * slope * slope - 6.0 * value * curved, Lanes(0.0)));
-    const LaneMask below = value < -1e-13 * size;
-    stdx::where(below, least) = least - 3.0 * value / select(below, slope + root, Lanes(1.0));
-  }
-  return least;
+  // Exact where stretches coincide too: roots of a polynomial would lose half of the digits there,
+  // and other ranks take other steps.
+  return Spectrum({at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)}).least();
 }
 
 namespace brick_detail {
