@@ -43,6 +43,14 @@ PartitionReport report_on(const Ownership<Dim>& ownership, int support,
 }
 
 template <int Dim>
+Reporter<Dim> grid_reporter(int support)
+{
+  return [support](const Ownership<Dim>& ownership, const CellVisits<Dim>& cells) {
+    return report_on(ownership, support, cells);
+  };
+}
+
+template <int Dim>
 std::string partition_table(const GridGeometry<Dim>& geometry, const std::vector<int>& ranks,
                             const PartitionRules<Dim>& rules, const Reporter<Dim>& report,
                             const CellVisits<Dim>& before, const CellVisits<Dim>& after)
@@ -74,6 +82,8 @@ std::string partition_table(const GridGeometry<Dim>& geometry, const std::vector
 
 template PartitionReport report_on(const Ownership<2>&, int, const CellVisits<2>&);
 template PartitionReport report_on(const Ownership<3>&, int, const CellVisits<3>&);
+template Reporter<2> grid_reporter(int);
+template Reporter<3> grid_reporter(int);
 template std::string partition_table(const GridGeometry<2>&, const std::vector<int>&,
                                      const PartitionRules<2>&, const Reporter<2>&,
                                      const CellVisits<2>&, const CellVisits<2>&);

@@ -58,10 +58,7 @@ Reporter<Dim> reporter_of(const Preparation<Dim>& preparation)
     return [&](const Ownership<Dim>& ownership, const CellVisits<Dim>& cells) {
       return report_on_mesh(preparation, ownership, cells);
     };
-  const int support = make_transfer<Dim>(numerics, preparation.layout.per_cell)->support();
-  return [support](const Ownership<Dim>& ownership, const CellVisits<Dim>& cells) {
-    return report_on(ownership, support, cells);
-  };
+  return grid_reporter<Dim>(make_transfer<Dim>(numerics, preparation.layout.per_cell)->support());
 }
 
 }  // namespace

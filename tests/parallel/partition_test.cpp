@@ -139,8 +139,8 @@ TEST(PartitionReport, SaysWhatTheHaloOfARealRunHas)
 
 TEST(PartitionReport, TableHasALinePerMapAndState)
 {
-  const std::string table =
-      partition_table<2>(plane_grid(), {1, 6, 100000}, {}, 3, diagonal, filled({{0, 0}, {48, 20}}));
+  const std::string table = partition_table<2>(
+      plane_grid(), {1, 6, 100000}, {}, grid_reporter<2>(3), diagonal, filled({{0, 0}, {48, 20}}));
   // Header; two maps in three states for 1 and 6 ranks; two refusals of too many ranks.
   EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 2 * 2 * 3 + 2);
   EXPECT_THAT(table, HasSubstr("100000  cuts   numerics.ranks: 100000 ranks cannot be arranged"));

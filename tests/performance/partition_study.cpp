@@ -74,7 +74,7 @@ int main(int argc, char** argv)
   fmt::print("{} x {} x {} cells, {:.0f} particles, relative density {:.3f}\n", cells, cells, cells,
              particles, particles / std::pow(double(per_cell) * cells, 3));
   fmt::print("{}", partition_table<3>(grid, {8, 64, 512},
-                                      {PartitionKind::automatic, {0, 0, 0}, piston_axis}, support,
-                                      start, tubes(cells, 0.5)));
+                                      {PartitionKind::automatic, {0, 0, 0}, piston_axis},
+                                      grid_reporter<3>(support), start, tubes(cells, 0.5)));
   return 0;
 }

@@ -24,6 +24,10 @@ template <int Dim>
 using Reporter =
     std::function<PartitionReport(const Ownership<Dim>& ownership, const CellVisits<Dim>& cells)>;
 
+/// `report_on` with stencils of so many nodes per axis.
+template <int Dim>
+Reporter<Dim> grid_reporter(int support);
+
 /// Reports on cuts and on blocks, before and, if any, after a change of the particles' places: with
 /// the borders left as they were, and moved. One line each, under a header.
 template <int Dim>
