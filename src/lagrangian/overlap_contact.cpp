@@ -40,15 +40,17 @@ const std::array<std::size_t, 4>& OverlapContact::corners_of_piece(int piece)
   return pieces[std::size_t(piece)];
 }
 
-OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec<2>& size,
-                               const IndexVec<2>& period)
+OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, double kappa,
+                               const Vec<2>& size, const IndexVec<2>& period)
     : comm_(comm),
       ghosts_(comm),
       side_ghosts_(comm),
       cells_(std::move(cells)),
       size_(size),
       period_(period),
-      area_(size[0] * size[1])
+      area_(size[0] * size[1]),
+      kappa_(kappa),
+      most_(cells_.size(), 0.0)
 {
 }
 
@@ -188,8 +190,10 @@ void OverlapContact::answer_overlaps(std::size_t cell, std::span<const Touch> to
     return sum;
   };
   parts_.clear();
+  most_[cell] = 0;
   for (const Touch& touch : touches) {
     const double together = add_beside(touch, share_of(touch), share_of);
+    most_[cell] = std::max(most_[cell], together);
     const OverlapPotential potential(together);
     parts_.push_back({potential.part, share_of(touch) * potential.slope});
     energy_ += stiffness_[cell] * area_ * share_of(touch) * parts_.back().own;
@@ -228,6 +232,18 @@ void OverlapContact::add_forces(NodeFields<2>& fields) const
     };
     push_corners(turned_[number] ? second : first, one, values + lane_count);
     push_corners(turned_[number] ? first : second, other, values + 9 * lane_count);
+  }
+}
+
+void OverlapContact::count_hardening(std::span<LaneVector<double>> least_stretches) const
+{
+  // What the default step has room for.
+  constexpr double borne = 2;
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    const double harder =
+        (1 + 2 * kappa_ * OverlapPotential::stiffness(most_[c])) / (1 + 2 * kappa_ * borne);
+    if (harder > 1)
+      least_stretches[std::size_t(cells_[c].body)][std::size_t(cells_[c].particle)] /= harder;
   }
 }
 

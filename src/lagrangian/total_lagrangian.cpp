@@ -91,9 +91,11 @@ void TotalLagrangian<Dim>::check()
   if (checked_ == steps_) return;
   constexpr double never = -std::numeric_limits<double>::infinity();
   double wave_speed = 0;
+  for (std::size_t b = 0; b < cells_.size(); ++b)
+    cells_[b].find_least_stretches(*nodes_, least_stretches_[b]);
+  if (contact_) contact_->count_hardening(least_stretches_);
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     Body<Dim>& body = setup_.bodies[b];
-    cells_[b].find_least_stretches(*nodes_, least_stretches_[b]);
     wave_speed = std::max(
         wave_speed, cells_[b].wave_speed_at_rest(body, least_stretches_[b], setup_.mass_scaling));
     const auto beyond = present_deformation(body).beyond_bounds;

@@ -27,7 +27,8 @@ void TotalLagrangian<2>::make_contact(const std::vector<CellNodes>& cells,
   };
   std::vector<OverlapContact::Cell> near;
   std::size_t number = 0;
-  for (const Body<2>& body : setup_.bodies) {
+  for (int b = 0; b < int(setup_.bodies.size()); ++b) {
+    const Body<2>& body = setup_.bodies[std::size_t(b)];
     const double wave = body.law->wave_speed();
     const double stiffness =
         setup_.contact_stiffness * body.density * wave * wave * setup_.thickness;
@@ -35,11 +36,12 @@ void TotalLagrangian<2>::make_contact(const std::vector<CellNodes>& cells,
       const IndexVec<2> location = location_of(body, p);
       if (!near_surface<2>(location, is_taken)) continue;
       const auto& n = cells[number];
-      near.push_back({{n[0], n[1], n[3], n[2]}, location, stiffness, open_corners(location)});
+      near.push_back({{n[0], n[1], n[3], n[2]}, location, stiffness, open_corners(location), b, p});
     }
   }
-  contact_ = std::make_unique<OverlapContact>(decomposition_.comm(), std::move(near),
-                                              setup_.location_size, period);
+  contact_ =
+      std::make_unique<OverlapContact>(decomposition_.comm(), std::move(near),
+                                       setup_.contact_stiffness, setup_.location_size, period);
 }
 
 template <>

@@ -59,7 +59,9 @@ Found contact_of(MPI_Comm comm, const Scene& scene)
     own.push_back({{first, first + 1, first + 2, first + 3},
                    IndexVec<2>(2 * (c % 8), 2 * (c / 8)),
                    stiffness,
-                   15});
+                   15,
+                   0,
+                   c});
     numbers.push_back(c);
   }
   MeshNodes<2> mesh(nodes, std::vector<char>(nodes.size(), 1), size, IndexVec<2>::Zero());
@@ -68,7 +70,7 @@ Found contact_of(MPI_Comm comm, const Scene& scene)
     for (int d = 0; d < 2; ++d)
       fields.updated_of(LocalIndex(n))[d] = scene.corners(d, 4 * numbers[n / 4] + int(n % 4));
   mesh.move(fields, 1);
-  OverlapContact contact(comm, own, size, scene.period);
+  OverlapContact contact(comm, own, 2, size, scene.period);
   contact.find_pairs(mesh, skin);
   contact.measure(mesh);
   contact.add_forces(fields);
@@ -153,8 +155,12 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
         for (const Vec<2>& corner : {Vec<2>(0, 0), Vec<2>(1, 0), Vec<2>(1, 1), Vec<2>(0, 1)})
           places.push_back(lower + corner.cwiseProduct(size));
         // Cells of a row are neighbours; the rows are not.
-        surface.push_back(
-            {{first, first + 1, first + 2, first + 3}, IndexVec<2>(c, 5 * row), stiffness, 15});
+        surface.push_back({{first, first + 1, first + 2, first + 3},
+                           IndexVec<2>(c, 5 * row),
+                           stiffness,
+                           15,
+                           0,
+                           c});
       }
     MeshNodes<2> mesh(std::vector<IndexVec<2>>(places.size(), IndexVec<2>::Zero()),
                       std::vector<char>(places.size(), 1), size, IndexVec<2>::Zero());
@@ -162,7 +168,7 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
     for (std::size_t n = 0; n < places.size(); ++n)
       for (int d = 0; d < 2; ++d) fields.updated_of(LocalIndex(n))[d] = places[n][d];
     mesh.move(fields, 1);
-    OverlapContact contact(MPI_COMM_SELF, surface, size, IndexVec<2>::Zero());
+    OverlapContact contact(MPI_COMM_SELF, surface, 2, size, IndexVec<2>::Zero());
     contact.find_pairs(mesh, skin);
     contact.measure(mesh);
     contact.add_forces(fields);

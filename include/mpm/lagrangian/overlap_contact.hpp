@@ -34,10 +34,12 @@ class OverlapContact final : public SelfContact<2> {
     /// Bit k: on one side at least of the diagonal neighbour towards corner k (bit 0 of k: upper
     /// along x, bit 1: along y) there is nothing. 0: a cell behind the outer layer.
     unsigned open_corners;
+    int body;             ///< whose cell it is
+    LocalIndex particle;  ///< and which
   };
 
   /// This rank's cells near surfaces; `size` of a location, m, and `period` in locations.
-  OverlapContact(MPI_Comm comm, std::vector<Cell> cells, const Vec<2>& size,
+  OverlapContact(MPI_Comm comm, std::vector<Cell> cells, double kappa, const Vec<2>& size,
                  const IndexVec<2>& period);
 
   void find_pairs(const MeshNodes<2>& nodes, double skin) override;
@@ -48,6 +50,7 @@ class OverlapContact final : public SelfContact<2> {
   void add_forces(NodeFields<2>& fields) const override;
   void add_friction(const NodeFields<2>& fields, double coefficient, double dt,
                     std::span<double> friction) override;
+  void count_hardening(std::span<LaneVector<double>> least_stretches) const override;
   double energy() const override { return energy_; }
   double overlapped_area() const override;
   GlobalIndex touching() const override { return touching_; }
@@ -160,6 +163,8 @@ class OverlapContact final : public SelfContact<2> {
   std::array<std::vector<double>, 2> places_then_;  ///< of nodes, m, when the pairs were found
   GlobalIndex touching_ = 0;
   double energy_ = 0;  ///< J, of this rank's cells
+  double kappa_;
+  std::vector<double> most_;  ///< largest T of each cell
 };
 
 }  // namespace mpm

@@ -1,6 +1,7 @@
 #pragma once
 /// What a total Lagrangian step knows of the contact of its cells with each other.
 
+#include <mpm/core/lane_vector.hpp>
 #include <mpm/grid/mesh_nodes.hpp>
 
 #include <span>
@@ -23,6 +24,9 @@ class SelfContact {
   virtual void measure(const MeshNodes<Dim>& nodes) = 0;
 
   // At the last call of `measure`, of this rank's cells.
+  /// Divides squares of least stretches, of each body's cells, by how much stiffer contact has made
+  /// the cells than a step bears that is made for its first stiffness.
+  virtual void count_hardening(std::span<LaneVector<double>> least_stretches) const = 0;
   virtual void add_forces(NodeFields<Dim>& fields) const = 0;
   /// To friction[node * Dim + axis], N. Every rank calls it. `coefficient`: Coulomb's.
   virtual void add_friction(const NodeFields<Dim>& fields, double coefficient, double dt,
