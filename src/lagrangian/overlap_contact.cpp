@@ -50,7 +50,7 @@ OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, double ka
       period_(period),
       area_(size[0] * size[1]),
       kappa_(kappa),
-      most_(cells_.size(), 0.0)
+      stiffened_(cells_.size(), 0.0)
 {
 }
 
@@ -190,10 +190,11 @@ void OverlapContact::answer_overlaps(std::size_t cell, std::span<const Touch> to
     return sum;
   };
   parts_.clear();
-  most_[cell] = 0;
+  stiffened_[cell] = 0;
   for (const Touch& touch : touches) {
     const double together = add_beside(touch, share_of(touch), share_of);
-    most_[cell] = std::max(most_[cell], together);
+    if (together > 0)  // what lies on one side of the cell counts once
+      stiffened_[cell] += share_of(touch) / together * OverlapPotential::stiffness(together);
     const OverlapPotential potential(together);
     parts_.push_back({potential.part, share_of(touch) * potential.slope});
     energy_ += stiffness_[cell] * area_ * share_of(touch) * parts_.back().own;
@@ -240,8 +241,7 @@ void OverlapContact::count_hardening(std::span<LaneVector<double>> least_stretch
   // What the default step has room for.
   constexpr double borne = 2;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const double harder =
-        (1 + 2 * kappa_ * OverlapPotential::stiffness(most_[c])) / (1 + 2 * kappa_ * borne);
+    const double harder = (1 + 2 * kappa_ * stiffened_[c]) / (1 + 2 * kappa_ * borne);
     if (harder > 1)
       least_stretches[std::size_t(cells_[c].body)][std::size_t(cells_[c].particle)] /= harder;
   }

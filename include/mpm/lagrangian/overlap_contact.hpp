@@ -164,7 +164,7 @@ class OverlapContact final : public SelfContact<2> {
   GlobalIndex touching_ = 0;
   double energy_ = 0;  ///< J, of this rank's cells
   double kappa_;
-  std::vector<double> most_;  ///< largest T of each cell
+  std::vector<double> stiffened_;  ///< of each cell, G'' of all its sides
 };
 
 }  // namespace mpm
