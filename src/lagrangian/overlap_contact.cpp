@@ -2,6 +2,7 @@
 #include <mpm/lagrangian/overlap_contact.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace mpm {
@@ -49,8 +50,7 @@ OverlapContact::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, double ka
       size_(size),
       period_(period),
       area_(size[0] * size[1]),
-      kappa_(kappa),
-      stiffened_(cells_.size(), 0.0)
+      kappa_(kappa)
 {
 }
 
@@ -135,6 +135,15 @@ void OverlapContact::find_overlaps()
   }
 }
 
+/// m, from the derivatives of the area by one cell's corners.
+double OverlapContact::face_length(const double* derivative)
+{
+  Vec<2> way = Vec<2>::Zero();
+  for (std::size_t c = 0; c < 4; ++c)
+    way += Vec<2>(derivative[c * lane_count], derivative[(c + 4) * lane_count]);
+  return way.norm();
+}
+
 void OverlapContact::measure(const MeshNodes<2>& nodes)
 {
   take_places(nodes);
@@ -145,13 +154,17 @@ void OverlapContact::measure(const MeshNodes<2>& nodes)
   find_boxes();
   find_overlaps();
   areas_.assign(pairs_.size(), 0.0);
+  lengths_.assign(pairs_.size(), 0.0);
   std::fill(sides_.begin(), sides_.end(), 0.0);
   touching_ = 0;
   std::vector<LocalIndex>& first = first_touch_;
   first.assign(cells_.size() + 1, 0);
   for (std::size_t k = 0; k < near_.size(); ++k) {
     const auto [number, one, other] = near_[k];
-    if (*overlap_of_pair(k) > 0) areas_[number] += *overlap_of_pair(k);
+    if (*overlap_of_pair(k) > 0) {
+      areas_[number] += *overlap_of_pair(k);
+      lengths_[number] += face_length(overlap_of_pair(k) + lane_count);
+    }
     if (areas_[number] == 0 || (k + 1 < near_.size() && near_[k + 1].pair == number)) continue;
     const Pair& pair = pairs_[number];
     ++first[std::size_t(pair.first)];
@@ -180,32 +193,35 @@ void OverlapContact::measure(const MeshNodes<2>& nodes)
 /// dW/ds_d = S_c A0 (H(T_d) + sum over d and its neighbours e of s_e H'(T_e)).
 void OverlapContact::answer_overlaps(std::size_t cell, std::span<const Touch> touches)
 {
-  const auto share_of = [this](const Touch& touch) {
-    return OverlapShare(areas_[std::size_t(touch.pair)] / area_).value;
-  };
-  const auto add_beside = [&](const Touch& touch, double of_touch, const auto& value_of) {
-    double sum = of_touch;
+  const auto add_beside = [&](const Touch& touch, const auto& value_of) {
+    double sum = value_of(touch);
     for (const Touch& beside : touches)
       if (&beside != &touch && are_of_one_wall(beside.other, touch.other)) sum += value_of(beside);
     return sum;
   };
+  const auto share = [this](const Touch& touch) { return share_of(touch); };
+  const auto length = [this](const Touch& touch) { return lengths_[std::size_t(touch.pair)]; };
+  const double size = std::sqrt(area_);
   parts_.clear();
-  stiffened_[cell] = 0;
   for (const Touch& touch : touches) {
-    const double together = add_beside(touch, share_of(touch), share_of);
-    if (together > 0)  // what lies on one side of the cell counts once
-      stiffened_[cell] += share_of(touch) / together * OverlapPotential::stiffness(together);
+    const double together = add_beside(touch, share);
     const OverlapPotential potential(together);
-    parts_.push_back({potential.part, share_of(touch) * potential.slope});
-    energy_ += stiffness_[cell] * area_ * share_of(touch) * parts_.back().own;
+    parts_.push_back({potential.part, share(touch) * potential.slope});
+    energy_ += stiffness_[cell] * area_ * share(touch) * parts_.back().own;
+    if (!(together > 0)) continue;
+    const auto grow = [&](std::vector<double>& largest, double now) {
+      largest[std::size_t(touch.side)] = std::max(largest[std::size_t(touch.side)], now);
+    };
+    grow(stiffnesses_, OverlapPotential::stiffness(together) * add_beside(touch, length) / size);
+    grow(parts_of_face_, share(touch) / together);
   }
   const auto change_of = [&](const Touch& touch) {
     return parts_[std::size_t(&touch - touches.data())].change;
   };
   for (const Touch& touch : touches)
     sides_[std::size_t(touch.side)] =
-        stiffness_[cell] * (parts_[std::size_t(&touch - touches.data())].own +
-                            add_beside(touch, change_of(touch), change_of));
+        stiffness_[cell] *
+        (parts_[std::size_t(&touch - touches.data())].own + add_beside(touch, change_of));
 }
 
 /// Whether cells are so near in the lattice that what a third one presses them with adds up.
@@ -236,15 +252,25 @@ void OverlapContact::add_forces(NodeFields<2>& fields) const
   }
 }
 
-void OverlapContact::count_hardening(std::span<LaneVector<double>> least_stretches) const
+void OverlapContact::count_stiffness(std::span<LaneVector<double>> least_stretches)
 {
-  // What the default step has room for.
-  constexpr double borne = 2;
+  constexpr double borne = 2;  // what the default step has room for
+  side_ghosts_.update(stiffnesses_, 1);
+  std::vector<double> pressed(cells_.size(), 0.0);
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const auto other = std::size_t(second_side_[k]);
+    const double both = 0.5 * (stiffnesses_[k] + stiffnesses_[other]);
+    pressed[std::size_t(pairs_[k].first)] += parts_of_face_[k] * both;
+    if (pairs_[k].second < cells())
+      pressed[std::size_t(pairs_[k].second)] += parts_of_face_[other] * both;
+  }
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const double harder = (1 + 2 * kappa_ * stiffened_[c]) / (1 + 2 * kappa_ * borne);
+    const double harder = (1 + 2 * kappa_ * pressed[c]) / (1 + 2 * kappa_ * borne);
     if (harder > 1)
       least_stretches[std::size_t(cells_[c].body)][std::size_t(cells_[c].particle)] /= harder;
   }
+  std::fill(stiffnesses_.begin(), stiffnesses_.end(), 0.0);
+  std::fill(parts_of_face_.begin(), parts_of_face_.end(), 0.0);
 }
 
 double OverlapContact::overlapped_area() const

@@ -219,7 +219,8 @@ void OverlapContact::keep_needed(std::vector<Ghosts::Peer> peers)
   locations_.resize(std::size_t(next));
   images_.resize(std::size_t(next));
   corners_.resize(std::size_t(next) * corner_values);
-  sides_.assign(std::size_t(next_side), 0.0);
+  for (auto* values : {&sides_, &stiffnesses_, &parts_of_face_})
+    values->assign(std::size_t(next_side), 0.0);
   answer(peers, traded_over_ranks(comm_, out), sides);
   ghosts_.set(std::move(peers));
   side_ghosts_.set(std::move(sides));

@@ -93,7 +93,7 @@ void TotalLagrangian<Dim>::check()
   double wave_speed = 0;
   for (std::size_t b = 0; b < cells_.size(); ++b)
     cells_[b].find_least_stretches(*nodes_, least_stretches_[b]);
-  if (contact_) contact_->count_hardening(least_stretches_);
+  if (contact_) contact_->count_stiffness(least_stretches_);
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     Body<Dim>& body = setup_.bodies[b];
     wave_speed = std::max(

@@ -50,7 +50,7 @@ class OverlapContact final : public SelfContact<2> {
   void add_forces(NodeFields<2>& fields) const override;
   void add_friction(const NodeFields<2>& fields, double coefficient, double dt,
                     std::span<double> friction) override;
-  void count_hardening(std::span<LaneVector<double>> least_stretches) const override;
+  void count_stiffness(std::span<LaneVector<double>> least_stretches) override;
   double energy() const override { return energy_; }
   double overlapped_area() const override;
   GlobalIndex touching() const override { return touching_; }
@@ -121,6 +121,11 @@ class OverlapContact final : public SelfContact<2> {
   struct Part {
     double own, change;
   };
+  double share_of(const Touch& touch) const
+  {
+    return OverlapShare(areas_[std::size_t(touch.pair)] / area_).value;
+  }
+  static double face_length(const double* derivative);
   void answer_overlaps(std::size_t cell, std::span<const Touch> touches);
   /// What presses in a pair, of both its sides, N/m.
   double pressure(std::size_t pair) const
@@ -149,8 +154,9 @@ class OverlapContact final : public SelfContact<2> {
   /// Whether the overlap is found as that of the second with the first: in the order of their
   /// locations, so that both ranks of a pair find the same bits.
   std::vector<char> turned_;
-  std::vector<Near> near_;     ///< those whose boxes meet
-  std::vector<double> areas_;  ///< of all pairs, m^2
+  std::vector<Near> near_;       ///< those whose boxes meet
+  std::vector<double> areas_;    ///< of all pairs, m^2
+  std::vector<double> lengths_;  ///< of their faces, m: what one cell's overlap gains per way of it
   /// Of every pair what its first cell answers with, the derivative of its energy by the overlap,
   /// N/m, a zero, and the second cells' as `second_side_` has them: other ranks' last.
   std::vector<double> sides_;
@@ -164,7 +170,9 @@ class OverlapContact final : public SelfContact<2> {
   GlobalIndex touching_ = 0;
   double energy_ = 0;  ///< J, of this rank's cells
   double kappa_;
-  std::vector<double> stiffened_;  ///< of each cell, G'' of all its sides
+  /// As sides_, the largest since the last check: G'' times the length on which it presses over the
+  /// size of a cell; and the share that the other cell has in what lies on this one's face.
+  std::vector<double> stiffnesses_, parts_of_face_;
 };
 
 }  // namespace mpm

@@ -23,10 +23,12 @@ class SelfContact {
   /// Overlaps at the present places. Every rank calls it.
   virtual void measure(const MeshNodes<Dim>& nodes) = 0;
 
-  // At the last call of `measure`, of this rank's cells.
   /// Divides squares of least stretches, of each body's cells, by how much stiffer contact has made
-  /// the cells than a step bears that is made for its first stiffness.
-  virtual void count_hardening(std::span<LaneVector<double>> least_stretches) const = 0;
+  /// the cells at some `measure` since the last call than a step bears that is made for its first
+  /// stiffness. Every rank calls it.
+  virtual void count_stiffness(std::span<LaneVector<double>> least_stretches) = 0;
+
+  // At the last call of `measure`, of this rank's cells.
   virtual void add_forces(NodeFields<Dim>& fields) const = 0;
   /// To friction[node * Dim + axis], N. Every rank calls it. `coefficient`: Coulomb's.
   virtual void add_friction(const NodeFields<Dim>& fields, double coefficient, double dt,
