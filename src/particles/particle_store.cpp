@@ -63,8 +63,9 @@ void ColumnGroup::archive(Archive& archive, LocalIndex particles)
 {
   if (archive.is_loading()) resize(particles);
   int first = 0;
+  std::vector<double> values;
   for (const Column& column : columns_) {
-    std::vector<double> values(std::size_t(particles) * column.components);
+    values.resize(std::size_t(particles) * column.components);
     std::size_t next = 0;
     if (!archive.is_loading())
       for (LocalIndex p = 0; p < particles; ++p)

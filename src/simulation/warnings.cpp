@@ -1,4 +1,4 @@
-#include <mpm/micrograph/early_contact.hpp>
+#include <mpm/micrograph/gaps.hpp>
 #include <mpm/micrograph/wall_thickness.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/warnings.hpp>
@@ -51,37 +51,14 @@ void look_at_walls(const scene::Scene& scene, const micrograph::Specimen<Dim>& s
                   specimen.picture()->unconnected, specimen.particles()));
 }
 
-/// Deformable particles in each layer across an axis, of the whole specimen. Collective.
-template <int Dim>
-std::vector<double> layers_of(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
-                              int axis, const micrograph::Share& share)
-{
-  constexpr GlobalIndex chunk_locations = 1 << 22;  // held at a time
-  std::vector<double> layers(std::size_t(specimen.count()[axis]));
-  micrograph::for_each_chunk(
-      micrograph::slab(specimen.whole(), share.part, share.parts), chunk_locations,
-      [&](const IndexBox<Dim>& chunk) {
-        const micrograph::Lattice<Dim> lattice = specimen.lattice(chunk);
-        std::size_t place = 0;
-        for_each_index(chunk, [&](const IndexVec<Dim>& at) {
-          const std::int8_t material = lattice.material[place++];
-          if (material != lattice.empty && scene.materials[std::size_t(material)].law->deformable())
-            ++layers[std::size_t(at[axis])];
-        });
-      });
-  share.sum(layers);
-  return layers;
-}
-
 /// Whatever is pushed is pushed on by what lies between, so that only whole empty layers part
 /// particles from the piston.
 template <int Dim>
 void look_at_reach(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
-                   const Layout<Dim>& layout, const micrograph::Share& share, Warnings& warnings)
+                   const Layout<Dim>& layout, std::vector<double> layers, Warnings& warnings)
 {
   const auto& loading = std::get<scene::Loading>(scene.motion);
   const int axis = axis_of(loading.piston);
-  std::vector<double> layers = layers_of(scene, specimen, axis, share);
   if (upper_of(loading.piston)) std::ranges::reverse(layers);
   const double travel = loading.strain * specimen.size()[axis];
   double gap = 0, unmet = 0;
@@ -100,12 +77,11 @@ void look_at_reach(const scene::Scene& scene, const micrograph::Specimen<Dim>& s
 /// Bodies in one velocity field touch before they meet.
 template <int Dim>
 void look_at_contact(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
-                     const Layout<Dim>& layout, const micrograph::Share& share, Warnings& warnings)
+                     const Layout<Dim>& layout, double early, Warnings& warnings)
 {
   const auto& loading = std::get<scene::Loading>(scene.motion);
   const int axis = axis_of(loading.piston);
   if (loading.strain < crushing_strain) return;
-  const double early = micrograph::early_contact(specimen, axis, share);
   if (early <= early_strain) return;
   warnings.push_back(fmt::format(
       "contact closes gaps about a cell too early: {:.1f} of them on the piston's way are "
@@ -199,9 +175,11 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
   look_at_order(scene.numerics, warnings);
   look_at_locking(scene, warnings);
   look_at_flight(scene, layout, warnings);
-  if (std::holds_alternative<scene::Loading>(scene.motion)) {
-    look_at_contact(scene, specimen, layout, share, warnings);
-    look_at_reach(scene, specimen, layout, share, warnings);
+  if (const auto* loading = std::get_if<scene::Loading>(&scene.motion)) {
+    micrograph::Gaps gaps = micrograph::gaps_along(specimen, std::span(scene.materials),
+                                                   axis_of(loading->piston), share);
+    look_at_contact(scene, specimen, layout, gaps.early_contact, warnings);
+    look_at_reach(scene, specimen, layout, std::move(gaps.layers), warnings);
   }
   if (const auto limit = stable_cfl_of(scene.numerics); limit && layout.cfl > *limit)
     warnings.push_back(fmt::format(

@@ -1,14 +1,17 @@
-#include <mpm/micrograph/early_contact.hpp>
+#include <mpm/micrograph/gaps.hpp>
 
 #include <algorithm>
 
 namespace mpm::micrograph {
 
 template <int Dim>
-double early_contact(const Specimen<Dim>& specimen, int axis, const Share& share)
+Gaps gaps_along(const Specimen<Dim>& specimen, std::span<const scene::Material> materials, int axis,
+                const Share& share)
 {
   constexpr GlobalIndex chunk_locations = 1 << 22;  // held at a time
   const int cell = specimen.particles_per_cell();
+  Gaps gaps;
+  gaps.layers.resize(std::size_t(specimen.count()[axis]));
   double lost = 0;  // empty locations within a cell behind a filled one
   for_each_chunk(
       slab(specimen.whole(), share.part, share.parts), chunk_locations,
@@ -18,16 +21,23 @@ double early_contact(const Specimen<Dim>& specimen, int axis, const Share& share
         const Lattice<Dim> lattice = specimen.lattice(seen);
         for_each_index(chunk, [&](IndexVec<Dim> at) {
           const int begin = at[axis];
+          const std::int8_t here = lattice(at);
+          if (here != lattice.empty) {
+            gaps.layers[std::size_t(begin)] += materials[std::size_t(here)].law->deformable();
+            return;
+          }
           while (at[axis] >= 0 && begin - at[axis] < cell && lattice(at) == lattice.empty)
             --at[axis];
-          lost += at[axis] < begin && at[axis] >= 0 && lattice(at) != lattice.empty;
+          lost += at[axis] >= 0 && lattice(at) != lattice.empty;
         });
       });
+  share.sum(gaps.layers);
   share.sum({&lost, 1});
-  return lost / double(specimen.whole().size());
+  gaps.early_contact = lost / double(specimen.whole().size());
+  return gaps;
 }
 
-template double early_contact(const Specimen<2>&, int, const Share&);
-template double early_contact(const Specimen<3>&, int, const Share&);
+template Gaps gaps_along(const Specimen<2>&, std::span<const scene::Material>, int, const Share&);
+template Gaps gaps_along(const Specimen<3>&, std::span<const scene::Material>, int, const Share&);
 
 }  // namespace mpm::micrograph

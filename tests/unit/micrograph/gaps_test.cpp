@@ -1,4 +1,4 @@
-#include <mpm/micrograph/early_contact.hpp>
+#include <mpm/micrograph/gaps.hpp>
 
 #include "built_specimen.hpp"
 #include <gmock/gmock.h>
@@ -25,14 +25,37 @@ scene::Shape box(std::array<double, 3> lower, std::array<double, 3> upper)
 
 /// The same for any number of parts.
 template <int Dim = 2>
-double early_in(const scene::Scene& scene, int axis)
+Gaps gaps_in(const scene::Scene& scene, int axis)
 {
-  const double alone = early_contact(built<Dim>(scene), axis, Share{});
+  const auto gaps_of = [&](const Share& share) {
+    return gaps_along(built<Dim>(scene, share), std::span(scene.materials), axis, share);
+  };
+  const Gaps alone = gaps_of(Share{});
   for (const int parts : {2, 3, 7, 50})
     on_parts(parts, [&](const Share& share) {
-      EXPECT_EQ(early_contact(built<Dim>(scene, share), axis, share), alone);
+      const Gaps shared = gaps_of(share);
+      EXPECT_EQ(shared.early_contact, alone.early_contact);
+      EXPECT_EQ(shared.layers, alone.layers);
     });
   return alone;
+}
+
+template <int Dim = 2>
+double early_in(const scene::Scene& scene, int axis)
+{
+  return gaps_in<Dim>(scene, axis).early_contact;
+}
+
+TEST(Gaps, LayersCountWhatCanBeDeformed)
+{
+  scene::Scene scene = scene_of(
+      {box({0, 0, 0}, {1, 12, 12}), box({4, 0, 0}, {6, 6, 12}), box({8, 0, 0}, {9, 12, 12})});
+  scene.materials.push_back({.name = "rigid", .law = "rigid", .values = {}});
+  scene.specimen.shapes[2].material = "rigid";
+  EXPECT_THAT(gaps_in(scene, 0).layers,
+              testing::ElementsAre(24, 24, 0, 0, 0, 0, 0, 0, 12, 12, 12, 12, 0, 0, 0, 0, 0, 0, 0, 0,
+                                   0, 0, 0, 0));
+  EXPECT_THAT(gaps_in<3>(scene, 0).layers[8], 12 * 24);
 }
 
 TEST(EarlyContact, OfEveryGapIsACell)
