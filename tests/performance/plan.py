@@ -31,8 +31,8 @@ def plan(table):
                      f"{seconds:.2f} s a step, {seconds * STEPS / 86400:.1f} days for 1e5 steps, "
                      f"{PARTICLES / ranks / 1e6:.2f} million particles and "
                      f"{peak['value'] * PARTICLES / ranks / 2**30:.1f} GiB a rank"))
-    # A rank rasters what it owns.
     seconds = start["value"] * PARTICLES / measured * 2
-    rows.append(("start", f"{start['value']:.1f} s x 1e8 / {measured:.2g} x 2 / ranks",
+    rows.append(("start, each rank rastering its part",
+                 f"{start['value']:.1f} s x 1e8 / {measured:.2g} x 2 / ranks",
                  ", ".join(f"{seconds / ranks:.1f} s on {ranks} ranks" for ranks in RANKS)))
     return rows
