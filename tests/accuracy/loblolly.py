@@ -23,6 +23,7 @@ SCENE = runs.PROJECT / "inputs" / "wood" / "loblolly_radial.yaml"
 PICTURE = [[75, 49], [100, 65], [125, 81], [150, 97], [180, 117], [240, 156],
            [300, 195], [360, 234], [480, 312], [600, 390]]
 BASE = [75, 49]
+SIZE = [0.832e-3, 0.541e-3]  # m, image_size of the scene
 FIXED = [1, 2, 3, 4]
 LARGEST = {"gimp flip": 600, "quadratic flip": 300, "cubic flip": 225}  # cells across
 METHODS = list(LARGEST)
@@ -49,13 +50,12 @@ def bitmap(solid):
             + palette + gray.tobytes())
 
 
-def locations(folder, cells):
-    """Which of 2 x 2 locations per cell hold a particle in the first snapshot."""
+def locations(folder, size, cells):
+    """Which of 2 x 2 locations per cell hold a particle in the first snapshot; `size` in m."""
     import h5py
     with h5py.File(sorted(Path(folder, "snapshots").glob("*.h5"))[0]) as file:
         place = file["particles/position"][:, :2]
-    size = numpy.array([0.832e-3, 0.541e-3])  # image_size of the scene
-    index = numpy.floor(place / size * 2 * numpy.array(cells)).astype(int)
+    index = numpy.floor(place / numpy.array(size) * 2 * numpy.array(cells)).astype(int)
     solid = numpy.zeros((2 * cells[1], 2 * cells[0]), bool)
     solid[index[:, 1], index[:, 0]] = True
     if solid.sum() != len(place):
@@ -63,12 +63,11 @@ def locations(folder, cells):
     return solid
 
 
-def base_picture(mpm_par, work):
-    """The geometry of the coarsest level as a picture with one pixel a location."""
-    picture = Path(work) / "base.bmp"
-    folder, _ = runs.run(mpm_par, SCENE, [f"grid.cells={BASE}", "loading.strain=0.1 %",
-                                          "output.snapshots={strains: [0 %]}"], work)
-    picture.write_bytes(bitmap(locations(folder, BASE)))
+def base_picture(mpm_par, picture, scene, size, cells, settings=()):
+    """The geometry of a scene at these cells, as a picture with one pixel a location."""
+    folder, _ = runs.run(mpm_par, scene, [*settings, f"grid.cells={cells}", "loading.strain=0.1 %",
+                                          "output.snapshots={strains: [0 %]}"], picture.parent)
+    picture.write_bytes(bitmap(locations(folder, size, cells)))
     return picture
 
 
@@ -125,7 +124,7 @@ def main():
     plan = planned(given.method, given.largest)
     if given.quick:
         plan = planned(METHODS[:1], 150)
-    picture = base_picture(given.mpm_par, given.work)
+    picture = base_picture(given.mpm_par, given.work / "base.bmp", SCENE, SIZE, BASE)
     table = runs.CurveTable(STRAINS, figures)
     for geometry, method, cells in plan:
         settings = settings_of(geometry, method, cells, picture)

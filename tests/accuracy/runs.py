@@ -99,19 +99,19 @@ def run(mpm_par, scene, settings, folder):
     return place, cost
 
 
-def write_rows(name, rows):
-    """As docs/accuracy/NAME; the columns are those of the first row and what others have beside."""
+def write_rows(name, rows, folder=RESULTS):
+    """As NAME in `folder`; the columns are those of the first row and what others have beside."""
     columns = list(dict.fromkeys(key for row in rows for key in row))
-    RESULTS.mkdir(exist_ok=True)
-    with open(RESULTS / name, "w", newline="") as file:
+    folder.mkdir(exist_ok=True)
+    with open(folder / name, "w", newline="") as file:
         writer = csv.DictWriter(file, columns, restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
 
 
-def write_curves(name, strains, curves):
-    """As docs/accuracy/NAME: strains, and for each key of `curves` a column of stresses in Pa."""
-    with open(RESULTS / name, "w", newline="") as file:
+def write_curves(name, strains, curves, folder=RESULTS):
+    """As NAME in `folder`: strains, and for each key of `curves` a column of stresses in Pa."""
+    with open(folder / name, "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["strain", *curves])
         for k, strain in enumerate(strains):
@@ -137,18 +137,18 @@ class CurveTable:
         self.rows.append(row)
         print(" ".join(f"{key}={value}" for key, value in row.items()), flush=True)
 
-    def write(self, name):
-        write_rows(f"{name}.csv", self.rows)
-        write_curves(f"{name}_curves.csv", self.strains, self.curves)
-        write_machine(self.folder)
+    def write(self, name, folder=RESULTS):
+        write_rows(f"{name}.csv", self.rows, folder)
+        write_curves(f"{name}_curves.csv", self.strains, self.curves, folder)
+        write_machine(self.folder, folder)
 
 
-def write_machine(folder):
-    """The machine that the seconds belong to and the version that ran, from one run's summary."""
+def write_machine(run, folder=RESULTS):
+    """As machine.json in `folder`: the machine that the seconds belong to and the version that ran, from one run's summary."""
     from machine import machine
-    version = json.loads((folder / "summary.json").read_text())["provenance"]
+    version = json.loads((run / "summary.json").read_text())["provenance"]
     found = machine() | {key: version[key] for key in ("mpm_par", "git", "compiler", "build")}
-    (RESULTS / "machine.json").write_text(json.dumps(found, indent=2) + "\n")
+    (folder / "machine.json").write_text(json.dumps(found, indent=2) + "\n")
 
 
 def number(text):
@@ -158,7 +158,7 @@ def number(text):
         return None if text == "" else text
 
 
-def read_rows(name):
-    """Rows of docs/accuracy/NAME: numbers as numbers, what is missing as None."""
-    with open(RESULTS / name, newline="") as file:
+def read_rows(name, folder=RESULTS):
+    """Rows of NAME in `folder`: numbers as numbers, what is missing as None."""
+    with open(folder / name, newline="") as file:
         return [{key: number(value) for key, value in row.items()} for row in csv.DictReader(file)]

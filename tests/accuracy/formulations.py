@@ -1,0 +1,154 @@
+"""Both formulations on the same geometries, to 40 % strain: rings, crops and shipped woods.
+
+    formulations.py MPM_PAR [--quick] [--geometry NAME ...] [--largest K] [--real DIR]
+                            [--work DIR] [--write] [--kept]
+
+Rings are drawn anew at every level. Of a picture the geometry is that of the coarsest level: each of its
+locations becomes k x k particles at the level of k times as many cells. --real adds the micrographs of DIR, which are not shipped. --write puts what is
+kept in DIR into docs/formulations, --kept makes no other runs; --quick runs the coarsest level of rings
+and crops and writes nothing.
+"""
+import argparse
+import struct
+from pathlib import Path
+
+import numpy
+
+import runs
+from loblolly import base_picture, figures
+
+WOOD = runs.PROJECT / "inputs" / "wood"
+RING = runs.PROJECT / "inputs" / "benchmarks" / "crushed_ring.yaml"
+LOBLOLLY = WOOD / "loblolly_radial.yaml"
+REAL = {"spruce": ("spruce_sem/spruce_ring_boundary_x4.bmp", 0.974),
+        "lomatia": ("hardwood/lomatia_arborescens_621x418.bmp", 0.96)}
+# As fast as the founding paper's: the work is within 2 % of that at 10 m/s, for a fifth of the time.
+FAST = "loading.speed=50 m/s"
+FORMULATIONS = {"updated": [], "total": ["numerics.formulation=total_lagrangian"]}
+STRAINS = numpy.linspace(0, 0.4, 201)
+
+
+class Geometry:
+    """Of a scene at its coarsest level: `cells`, and the `size` of the specimen, m. `levels`: k of both
+    formulations; `drawn`: at every level."""
+
+    def __init__(self, scene, size, cells, levels, settings=(), drawn=False):
+        self.scene, self.size, self.cells, self.settings = scene, size, cells, [*settings]
+        self.drawn = drawn
+        self.levels = dict(zip(FORMULATIONS, levels))
+
+    def base(self, mpm_par, work, name):
+        return self.drawn or base_picture(mpm_par, work / f"{name}.bmp", self.scene, self.size, self.cells,
+                            self.settings)
+
+    def location_area(self, k):
+        return self.size[0] / (2 * k * self.cells[0]) * self.size[1] / (2 * k * self.cells[1])  # m2
+
+    def settings_at(self, formulation, k, picture):
+        specimen = [word for word in self.settings if word.startswith("specimen")]
+        if not self.drawn:
+            lengths = ", ".join(f"{1e6 * length:.8g} um" for length in self.size)
+            specimen = [f"specimen={{micrograph: {picture}, image_size: [{lengths}], threshold: 128, "
+                        "sampling: threshold}"]
+        return [*(word for word in self.settings if not word.startswith("specimen")), *specimen,
+                "loading.strain=40 %", "output.snapshots=0", "output.history_lines=600",
+                f"grid.cells={[k * n for n in self.cells]}", *FORMULATIONS[formulation]]
+
+
+def crop(x):
+    """90 x 70 of the 360 x 234 pixels of loblolly, in cells as small as 150 across the whole."""
+    return Geometry(LOBLOLLY, [0.208e-3, 0.541e-3 * 70 / 234], [38, 29], ([1, 2, 4, 8], [1, 2, 4]),
+                    [FAST, "specimen={micrograph: loblolly.bmp, image_size: [0.832 mm, 0.541 mm], "
+                     f"threshold: 150, crop: [{x}, 60, 90, 70]}}"])
+
+
+def wood(name, size, cells, levels=([1, 2, 4], [1, 2])):
+    return Geometry(WOOD / f"{name}.yaml", size, cells, levels, [FAST])
+
+
+def geometries():
+    loblolly, poplar = ([0.832e-3, 0.541e-3], [75, 49]), ([0.802e-3, 0.524e-3], [75, 49])
+    thin = ("specimen.shapes=[{disc: {centre: [50 um, 50 um], radius: 50 um}}, {disc: {centre: "
+            "[50 um, 50 um], radius: 45 um}, material: void}]")
+    return {"ring": Geometry(RING, [100e-6, 100e-6], [10, 10], ([1, 2, 4, 8, 16], [1, 2, 4, 8]),
+                             drawn=True),
+            "thin_ring": Geometry(RING, [100e-6, 100e-6], [10, 10], ([1, 2, 4, 8, 16], [1, 2, 4, 8]),
+                                  [thin], drawn=True),
+            "earlywood": crop(40), "latewood": crop(190),
+            "loblolly_radial": wood("loblolly_radial", *loblolly, ([1, 2, 4, 8], [1, 2, 4])),
+            "loblolly_tangential": wood("loblolly_tangential", *loblolly),
+            "poplar_radial": wood("poplar_radial", *poplar),
+            "poplar_tangential": wood("poplar_tangential", *poplar),
+            "ponderosa_tangential": wood("ponderosa_tangential", [1e-3, 1.29e-3], [75, 97])}
+
+
+def real(folder, work):
+    """Of the micrographs in `folder`, scenes as short as a user would write them, kept in `work`."""
+    found = {}
+    for name, (file, pixel) in REAL.items():
+        picture = (folder / file).resolve()
+        width, height = struct.unpack("<ii", picture.read_bytes()[18:26])
+        scene = work / f"{name}.yaml"
+        scene.write_text(f"specimen: {{micrograph: {picture}, pixel_size: {pixel} um, threshold: 128}}\n"
+                         "loading: {piston: right, speed: 50 m/s, strain: 40 %}\n")
+        found[name] = Geometry(scene, [1e-6 * pixel * width, 1e-6 * pixel * abs(height)],
+                               [75, round(75 * abs(height) / width)], ([1, 2, 4], [1, 2]))
+    return found
+
+
+def planned(found, largest):
+    """(name, formulation, k), the cheapest first."""
+    plan = [(name, formulation, k) for name, geometry in found.items() for formulation in FORMULATIONS
+            for k in geometry.levels[formulation] if k <= largest]
+    return sorted(plan, key=lambda one: (one[2] ** 3 * (8 if one[1] == "total" else 1)))
+
+
+def figures_of(folder, strains):
+    """As `figures`, with what contact did; shares of the wall at rest."""
+    found, curve = figures(folder, strains)
+    history = numpy.genfromtxt(folder / "history.csv", delimiter=",", names=True)
+    beyond = history["strain_1"] > 0.005
+    found["largest_energy_error"] = float(f"{abs(history['energy_error_1'][beyond]).max():.3g}")
+    if "overlapped_area_m2" in history.dtype.names:
+        found["overlapped_area"] = float(f"{history['overlapped_area_m2'].max():.4g}")
+        found["contact_pairs"] = int(history["contact_pairs_1"].max())
+    return found, curve
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__,
+                                        formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("mpm_par", type=Path)
+    arguments.add_argument("--quick", action="store_true")
+    arguments.add_argument("--geometry", nargs="+")
+    arguments.add_argument("--largest", type=int, default=16)
+    arguments.add_argument("--real", type=Path)
+    arguments.add_argument("--work", type=Path, default=runs.PROJECT / "results" / "formulations")
+    arguments.add_argument("--write", action="store_true")
+    arguments.add_argument("--kept", action="store_true")
+    given = arguments.parse_args()
+    given.work.mkdir(parents=True, exist_ok=True)
+    found = geometries()
+    if given.real:
+        found |= real(given.real, given.work)
+    if given.geometry:
+        found = {name: found[name] for name in given.geometry}
+    elif given.quick:
+        found = {name: found[name] for name in ("ring", "thin_ring", "earlywood", "latewood")}
+    pictures = {name: geometry.base(given.mpm_par, given.work, name)
+                for name, geometry in found.items()}
+    table = runs.CurveTable(STRAINS, figures_of)
+    for name, formulation, k in planned(found, 1 if given.quick else given.largest):
+        geometry = found[name]
+        settings = geometry.settings_at(formulation, k, pictures[name])
+        if given.kept and not runs.kept_cost(given.mpm_par, geometry.scene, settings, given.work):
+            continue
+        table.add({"geometry": name, "method": formulation, "cells": k * geometry.cells[0], "k": k,
+                   "location_area": float(f"{geometry.location_area(k):.8g}")},
+                  runs.run(given.mpm_par, geometry.scene, settings, given.work))
+    if given.write and not given.quick:
+        table.write("ladders", runs.PROJECT / "docs" / "formulations")
+
+
+if __name__ == "__main__":
+    main()
