@@ -1,14 +1,16 @@
 /// Coulomb friction between cells that lie upon each other.
 ///
-/// Of a pair the force between the cells is N = p dA/dx_a, the sum over the corners of a, and its
-/// share at corner c of either cell is w_c = (dA/dx_c . n) / |dA/dx_a|, n = N / |N|: shares sum to
+/// Of a pair the force between the cells is N = p dV/dx_a, the sum over the corners of a, and its
+/// share at corner c of either cell is w_c = (dV/dx_c . n) / |dV/dx_a|, n = N / |N|: shares sum to
 /// one, and the contact moves with the mean of the corners' velocities by these shares. Along the
-/// tangent it bears
+/// tangents it bears
 ///   f = -min(mu |N|, a m v / dt) v / |v|,   1 / m = sum w_c^2 / m_c over the corners of both,
 /// v the relative velocity: what Coulomb allows, and never more than would stop a part a of the
 /// motion. It sticks where that is less, and creeps by dt / a times the acceleration that pulls.
+/// V is the overlap, in the plane an area.
 #include <mpm/lagrangian/overlap_contact.hpp>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -21,96 +23,127 @@ namespace {
 constexpr double stopped_at_once = 0.1;
 
 /// Per corner: velocity, m/s, and 1 / mass, 1/kg.
-constexpr int values_per_corner = 3;
+template <int Dim>
+constexpr int values_per_corner = Dim + 1;
 
+template <int Dim>
 struct Shares {
-  double of[4];
+  static constexpr std::size_t corners = 1 << Dim;
+  double of[corners];
+  std::array<std::size_t, corners> corner;
 
-  /// `derivative`: by x of the corners, then by y, each lane_count apart.
-  Shares(const double* derivative, double along_x, double along_y)
+  /// `direction`: of the normal, over the slope of the whole cell.
+  Shares(const OverlapSlopes<Dim>& slopes, const Vec<Dim>& direction) : corner(slopes.corner)
   {
-    for (std::size_t c = 0; c < 4; ++c)
-      of[c] = derivative[c * lane_count] * along_x + derivative[(c + 4) * lane_count] * along_y;
+    for (std::size_t c = 0; c < corners; ++c) {
+      of[c] = slopes.by[c][0] * direction[0];
+      for (int d = 1; d < Dim; ++d) of[c] += slopes.by[c][d] * direction[d];
+    }
   }
-  double velocity(const double* motion, const std::array<std::size_t, 4>& corners, int axis) const
+  double velocity(const double* motion, int axis) const
   {
     double sum = 0;
-    for (std::size_t c = 0; c < 4; ++c)
-      sum += of[c] * motion[corners[c] * values_per_corner + axis];
+    for (std::size_t c = 0; c < corners; ++c)
+      sum += of[c] * motion[corner[c] * values_per_corner<Dim> + std::size_t(axis)];
     return sum;
   }
   /// Corners that a triangle names twice have both shares.
-  double mobility(const double* motion, const std::array<std::size_t, 4>& corners) const
+  double mobility(const double* motion) const
   {
-    double at[4] = {0, 0, 0, 0}, sum = 0;
-    for (std::size_t c = 0; c < 4; ++c) at[corners[c]] += of[c];
-    for (std::size_t k = 0; k < 4; ++k) sum += at[k] * at[k] * motion[k * values_per_corner + 2];
+    double at[corners] = {}, sum = 0;
+    for (std::size_t c = 0; c < corners; ++c) at[corner[c]] += of[c];
+    for (std::size_t k = 0; k < corners; ++k)
+      sum += at[k] * at[k] * motion[k * values_per_corner<Dim> + Dim];
     return sum;
   }
 };
 
+double length_of(const Vec<2>& v)
+{
+  return std::hypot(v[0], v[1]);
+}
+double length_of(const Vec<3>& v)
+{
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+std::array<Vec<2>, 1> tangents_of(const Vec<2>& normal)
+{
+  return {Vec<2>(-normal[1], normal[0])};
+}
+std::array<Vec<3>, 2> tangents_of(const Vec<3>& normal)
+{
+  const Vec<3> one = normal.unitOrthogonal();
+  return {one, normal.cross(one)};
+}
+
 }  // namespace
 
-void OverlapContact::take_motion(const NodeFields<2>& fields)
+template <int Dim>
+void OverlapContact<Dim>::take_motion(const NodeFields<Dim>& fields)
 {
-  constexpr int width = 4 * values_per_corner;
+  constexpr int width = int(corners_of_cell) * values_per_corner<Dim>;
   motion_.resize(stiffness_.size() * width);
   double* out = motion_.data();
   for (const Cell& cell : cells_)
     for (const LocalIndex node : cell.nodes) {
-      const double* u = &fields.updated[std::size_t(node) * NodeFields<2>::record_width];
-      *out++ = u[0];
-      *out++ = u[1];
+      const double* u = &fields.updated[std::size_t(node) * NodeFields<Dim>::record_width];
+      for (int d = 0; d < Dim; ++d) *out++ = u[d];
       *out++ = 1 / fields.mass_of(node);
     }
   ghosts_.update(motion_, width);
 }
 
-void OverlapContact::add_friction(const NodeFields<2>& fields, double coefficient, double dt,
-                                  std::span<double> friction)
+template <int Dim>
+void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double coefficient, double dt,
+                                       std::span<double> friction)
 {
   take_motion(fields);
-  constexpr std::size_t width = 4 * values_per_corner;
-  for (std::size_t k = 0; k < near_.size(); ++k) {
-    const double* values = overlap_of_pair(k);
-    if (!(*values > 0)) continue;
-    const auto [number, one_piece, other_piece] = near_[k];
-    const double *of_one = values + lane_count, *of_other = values + 9 * lane_count;
-    double slope[2] = {0, 0};
-    for (std::size_t c = 0; c < 4; ++c)
-      for (std::size_t d = 0; d < 2; ++d) slope[d] += of_one[(c + 4 * d) * lane_count];
-    const double length = std::hypot(slope[0], slope[1]);
-    if (!(length > 0)) continue;
-    const double normal[2] = {slope[0] / length, slope[1] / length};
-    const Shares one(of_one, normal[0] / length, normal[1] / length);
-    const Shares other(of_other, -normal[0] / length, -normal[1] / length);
-
-    auto [a, b] = pairs_[number];
-    if (turned_[number]) std::swap(a, b);
+  constexpr std::size_t width = corners_of_cell * values_per_corner<Dim>;
+  for (std::size_t entry = 0; entry < found_.size(); ++entry) {
+    if (!(found_.overlap(entry) > 0)) continue;
+    const OverlapSlopes<Dim> of_one = found_.slopes(entry, 0), of_other = found_.slopes(entry, 1);
+    const Vec<Dim> slope = of_one.together();
+    const double face = length_of(slope);
+    if (!(face > 0)) continue;
+    const Vec<Dim> normal = slope / face;
+    const Shares<Dim> one(of_one, normal / face), other(of_other, -normal / face);
+    const LocalIndex a = cell_of(entry, 0), b = cell_of(entry, 1);
     const double *moving = &motion_[std::size_t(a) * width],
                  *against = &motion_[std::size_t(b) * width];
-    const auto &corners = corners_of_piece(one_piece),
-               &other_corners = corners_of_piece(other_piece);
-    double slip = 0;  // of a over b along the tangent (-n_y, n_x)
-    for (int d = 0; d < 2; ++d)
-      slip += (one.velocity(moving, corners, d) - other.velocity(against, other_corners, d)) *
-              (d == 0 ? -normal[1] : normal[0]);
-    const double mobility = one.mobility(moving, corners) + other.mobility(against, other_corners);
-    const double most = coefficient * pressure(number) * length;
-    const double push =
-        -std::copysign(std::min(most, stopped_at_once * std::abs(slip) / (mobility * dt)), slip);
-    const auto add = [&](LocalIndex cell, const Shares& shares,
-                         const std::array<std::size_t, 4>& at, double along) {
+    const auto tangents = tangents_of(normal);
+    Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();  // of a over b along the tangents
+    for (int t = 0; t < Dim - 1; ++t)
+      for (int d = 0; d < Dim; ++d)
+        slip[t] +=
+            (one.velocity(moving, d) - other.velocity(against, d)) * tangents[std::size_t(t)][d];
+    const double speed = slip.norm();
+    if (!(speed > 0)) continue;
+    const double mobility = one.mobility(moving) + other.mobility(against);
+    const double most = coefficient * pressure(found_.pair(entry)) * face;
+    const Vec<Dim - 1> push =
+        -std::min(most, stopped_at_once * speed / (mobility * dt)) * (slip / speed);
+    const auto add = [&](LocalIndex cell, const Shares<Dim>& shares, double sign) {
       if (cell >= cells()) return;
-      for (std::size_t c = 0; c < 4; ++c) {
-        const auto node = std::size_t(cells_[std::size_t(cell)].nodes[at[c]]);
-        friction[2 * node] -= along * shares.of[c] * normal[1];
-        friction[2 * node + 1] += along * shares.of[c] * normal[0];
+      for (std::size_t c = 0; c < corners_of_cell; ++c) {
+        const auto node = std::size_t(cells_[std::size_t(cell)].nodes[shares.corner[c]]);
+        for (int t = 0; t < Dim - 1; ++t) {
+          const double along = sign * push[t] * shares.of[c];
+          for (int d = 0; d < Dim; ++d)
+            friction[Dim * node + std::size_t(d)] += along * tangents[std::size_t(t)][d];
+        }
       }
     };
-    add(a, one, corners, push);
-    add(b, other, other_corners, -push);
+    add(a, one, 1);
+    add(b, other, -1);
   }
 }
+
+template void OverlapContact<2>::take_motion(const NodeFields<2>&);
+template void OverlapContact<3>::take_motion(const NodeFields<3>&);
+template void OverlapContact<2>::add_friction(const NodeFields<2>&, double, double,
+                                              std::span<double>);
+template void OverlapContact<3>::add_friction(const NodeFields<3>&, double, double,
+                                              std::span<double>);
 
 }  // namespace mpm

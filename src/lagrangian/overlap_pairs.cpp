@@ -7,21 +7,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
 
 namespace mpm {
 
-namespace {
-
-constexpr int itself = 4;  ///< of the images
-
-}  // namespace
-
 /// In locations, the short way around where an axis is periodic.
-IndexVec<2> OverlapContact::apart(LocalIndex from, LocalIndex to) const
+template <int Dim>
+IndexVec<Dim> OverlapContact<Dim>::apart(LocalIndex from, LocalIndex to) const
 {
-  IndexVec<2> apart = locations_[std::size_t(to)] - locations_[std::size_t(from)];
-  for (int d = 0; d < 2; ++d)
+  IndexVec<Dim> apart = locations_[std::size_t(to)] - locations_[std::size_t(from)];
+  for (int d = 0; d < Dim; ++d)
     if (period_[d] > 0) {
       if (apart[d] > period_[d] / 2) apart[d] -= period_[d];
       if (apart[d] < -period_[d] / 2) apart[d] += period_[d];
@@ -29,33 +23,35 @@ IndexVec<2> OverlapContact::apart(LocalIndex from, LocalIndex to) const
   return apart;
 }
 
-/// Neighbours with a side in common cannot, nor those around a node where all four cells are; and
-/// what is behind the outer layer on both sides does not before the layers themselves.
-bool OverlapContact::can_meet(LocalIndex own, LocalIndex other) const
+/// Neighbours with a face in common cannot, nor those around a node or edge where all cells are;
+/// and what is behind the outer layer on both sides does not before the layers themselves.
+template <int Dim>
+bool OverlapContact<Dim>::can_meet(LocalIndex own, LocalIndex other) const
 {
-  if (open_corners_[std::size_t(own)] == 0 && open_corners_[std::size_t(other)] == 0) return false;
-  const IndexVec<2> apart = this->apart(own, other);
+  const OpenCorners<Dim>& open = open_[std::size_t(own)];
+  if (open.is_behind() && open_[std::size_t(other)].is_behind()) return false;
+  const IndexVec<Dim> apart = this->apart(own, other);
   if (apart.cwiseAbs().maxCoeff() > 1) return true;
-  if (apart[0] == 0 || apart[1] == 0) return false;
-  const int corner = (apart[0] > 0 ? 1 : 0) + (apart[1] > 0 ? 2 : 0);
-  return open_corners_[std::size_t(own)] >> corner & 1;
+  return apart.cwiseAbs().sum() > 1 && open.towards(apart);
 }
 
-void OverlapContact::find_pairs(const MeshNodes<2>& nodes, double skin)
+template <int Dim>
+void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
 {
   skin_ = skin;
-  for (int d = 0; d < 2; ++d)
-    places_then_[std::size_t(d)].assign(nodes.along(d), nodes.along(d) + nodes.size());
+  places_then_.clear();
+  for (LocalIndex node = 0; node < nodes.size(); ++node)
+    places_then_.push_back(nodes.position(node));
   const std::size_t own = cells_.size();
-  corners_.resize(own * corner_values);
+  values_.resize(own * Overlaps::values);
   stiffness_.resize(own);
   locations_.resize(own);
-  open_corners_.resize(own);
+  open_.resize(own);
   images_.assign(own, itself);
   for (std::size_t c = 0; c < own; ++c) {
     stiffness_[c] = cells_[c].stiffness;
     locations_[c] = cells_[c].location;
-    open_corners_[c] = cells_[c].open_corners;
+    open_[c] = cells_[c].open;
   }
   take_places(nodes);
   find_boxes();
@@ -65,93 +61,123 @@ void OverlapContact::find_pairs(const MeshNodes<2>& nodes, double skin)
   keep_needed(std::move(peers));
 }
 
-double OverlapContact::largest_way(const MeshNodes<2>& nodes) const
+template <int Dim>
+double OverlapContact<Dim>::largest_way(const MeshNodes<Dim>& nodes) const
 {
   double squared = 0;
-  const double *x = nodes.along(0), *y = nodes.along(1);
-  for (std::size_t n = 0; n < places_then_[0].size(); ++n) {
-    const double dx = x[n] - places_then_[0][n], dy = y[n] - places_then_[1][n];
-    squared = std::max(squared, dx * dx + dy * dy);
-  }
+  for (std::size_t n = 0; n < places_then_.size(); ++n)
+    squared = std::max(squared, (nodes.position(LocalIndex(n)) - places_then_[n]).squaredNorm());
   return std::sqrt(squared);
 }
 
-/// How far an image lies from the cell itself, m; images: 0 to 8, 4 is the cell's own place.
-Vec<2> OverlapContact::shift_of(int image) const
+/// Whether all axes along which an image lies elsewhere are periodic.
+template <int Dim>
+bool OverlapContact<Dim>::is_there(int image) const
 {
-  return {(image % 3 - 1) * period_[0] * size_[0], (image / 3 - 1) * period_[1] * size_[1]};
+  for (int d = 0; d < Dim; ++d, image /= 3)
+    if (image % 3 != 1 && period_[d] == 0) return false;
+  return true;
+}
+
+/// How far an image lies from the cell itself, m.
+template <int Dim>
+Vec<Dim> OverlapContact<Dim>::shift_of(int image) const
+{
+  Vec<Dim> shift;
+  for (int d = 0; d < Dim; ++d, image /= 3) shift[d] = (image % 3 - 1) * period_[d] * size_[d];
+  return shift;
 }
 
 /// All cells that may meet some of another rank's become ghosts there.
-std::vector<Ghosts::Peer> OverlapContact::add_candidates(double skin)
+template <int Dim>
+std::vector<Ghosts::Peer> OverlapContact<Dim>::add_candidates(double skin)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const int ranks = ranks_of(comm_), me = rank_of(comm_);
-  Box mine{infinity, infinity, -infinity, -infinity};
-  for (std::size_t c = 0; c < cells_.size(); ++c)
-    for (std::size_t k = 0; k < 2; ++k) {
-      mine[k] = std::min(mine[k], boxes_[c][k]);
-      mine[k + 2] = std::max(mine[k + 2], boxes_[c][k + 2]);
+  Box mine;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    mine[d] = infinity;
+    mine[Dim + d] = -infinity;
+    for (const Box& box : boxes_) {
+      mine[d] = std::min(mine[d], box[d]);
+      mine[Dim + d] = std::max(mine[Dim + d], box[Dim + d]);
     }
+  }
   const std::vector<double> others = joined_over_ranks(comm_, mine);
   std::vector<std::vector<double>> out(static_cast<std::size_t>(ranks));
   std::vector<Ghosts::Peer> peers(static_cast<std::size_t>(ranks));
   for (int r = 0; r < ranks; ++r)
-    for (int image = 0; image < 9; ++image) {
-      const Vec<2> shift = shift_of(image);
-      const bool is_one = (image % 3 == 1 || period_[0] > 0) && (image / 3 == 1 || period_[1] > 0);
-      if (!is_one || (r == me && image == itself)) continue;
-      const auto moved = [&](const Box& box) {
-        return Box{box[0] + shift[0], box[1] + shift[1], box[2] + shift[0], box[3] + shift[1]};
+    for (int image = 0; image < images; ++image) {
+      if (!is_there(image) || (r == me && image == itself)) continue;
+      const Vec<Dim> shift = shift_of(image);
+      const auto moved = [&](Box box) {
+        for (std::size_t d = 0; d < box.size(); ++d) box[d] += shift[int(d % Dim)];
+        return box;
       };
       Box theirs;
-      std::copy_n(&others[std::size_t(r) * 4], 4, theirs.begin());
-      if (!meet(moved(mine), theirs, skin)) continue;
+      std::copy_n(&others[std::size_t(r) * theirs.size()], theirs.size(), theirs.begin());
+      if (!meet<Dim>(moved(mine), theirs, skin)) continue;
       for (LocalIndex c = 0; c < cells(); ++c) {
-        if (!meet(moved(boxes_[std::size_t(c)]), theirs, skin)) continue;
+        if (!meet<Dim>(moved(boxes_[std::size_t(c)]), theirs, skin)) continue;
         peers[std::size_t(r)].sent.push_back({c, image});
         std::vector<double>& list = out[std::size_t(r)];
         const Cell& cell = cells_[std::size_t(c)];
-        list.insert(list.end(), {double(cell.location[0]), double(cell.location[1]), cell.stiffness,
-                                 double(cell.open_corners), double(image)});
-        for (int k = 0; k < corner_values; ++k)
-          list.push_back(corners_of(c)[k] + shift[k < 4 ? 0 : 1]);
+        list.insert(list.end(), cell.location.begin(), cell.location.end());
+        list.insert(list.end(), {cell.stiffness, double(cell.open.bits()), double(image)});
+        list.insert(list.end(), values_of(c), values_of(c) + Overlaps::values);
+        Overlaps::shift(shift, &*list.end() - Overlaps::values);
       }
     }
-  const auto in = traded_over_ranks(comm_, out);
-  constexpr std::size_t values = 5 + corner_values;
-  for (int r = 0; r < ranks; ++r) {
-    const std::vector<double>& list = in[std::size_t(r)];
-    Ghosts::Peer& peer = peers[std::size_t(r)];
-    peer.rank = r;
-    peer.first = LocalIndex(stiffness_.size());
-    peer.count = LocalIndex(list.size() / values);
-    for (std::size_t k = 0; k < list.size(); k += values) {
-      locations_.push_back({LocalIndex(list[k]), LocalIndex(list[k + 1])});
-      stiffness_.push_back(list[k + 2]);
-      open_corners_.push_back(unsigned(list[k + 3]));
-      images_.push_back(int(list[k + 4]));
-      corners_.insert(corners_.end(), &list[k + 5], &list[k + 5] + corner_values);
-    }
-  }
+  add_ghosts(peers, traded_over_ranks(comm_, out));
   return peers;
 }
 
-void OverlapContact::list_pairs(double skin)
+template <int Dim>
+void OverlapContact<Dim>::add_ghosts(std::vector<Ghosts::Peer>& peers,
+                                     const std::vector<std::vector<double>>& sent)
+{
+  constexpr std::size_t values = Dim + 3 + std::size_t(Overlaps::values);
+  for (std::size_t r = 0; r < peers.size(); ++r) {
+    const std::vector<double>& list = sent[r];
+    Ghosts::Peer& peer = peers[r];
+    peer.rank = int(r);
+    peer.first = LocalIndex(stiffness_.size());
+    peer.count = LocalIndex(list.size() / values);
+    for (std::size_t k = 0; k < list.size(); k += values) {
+      IndexVec<Dim>& location = locations_.emplace_back();
+      for (int d = 0; d < Dim; ++d) location[d] = LocalIndex(list[k + std::size_t(d)]);
+      const double* of_cell = &list[k + Dim];
+      stiffness_.push_back(of_cell[0]);
+      open_.emplace_back(unsigned(of_cell[1]));
+      images_.push_back(int(of_cell[2]));
+      values_.insert(values_.end(), of_cell + 3, of_cell + 3 + Overlaps::values);
+    }
+  }
+}
+
+template <int Dim>
+void OverlapContact<Dim>::list_pairs(double skin)
 {
   struct Entry {
     GlobalIndex bin;
     LocalIndex cell;
     auto operator<=>(const Entry&) const = default;
   };
+  constexpr GlobalIndex bins_per_axis = GlobalIndex(1) << (62 / Dim);
   const double width = 1.5 * size_.maxCoeff() + skin;
-  const auto bin_of = [&](double place) { return GlobalIndex(std::floor(place / width)); };
+  const auto bin_of = [&](double place) { return LocalIndex(std::floor(place / width)); };
   std::vector<Entry> entries;
   for (std::size_t c = 0; c < stiffness_.size(); ++c) {
-    const Box& box = boxes_[c];
-    for (GlobalIndex j = bin_of(box[1] - 0.5 * skin); j <= bin_of(box[3] + 0.5 * skin); ++j)
-      for (GlobalIndex i = bin_of(box[0] - 0.5 * skin); i <= bin_of(box[2] + 0.5 * skin); ++i)
-        entries.push_back({j * (GlobalIndex(1) << 32) + i, LocalIndex(c)});
+    IndexBox<Dim> bins;
+    for (int d = 0; d < Dim; ++d) {
+      bins.lower[d] = bin_of(boxes_[c][std::size_t(d)] - 0.5 * skin);
+      bins.upper[d] = bin_of(boxes_[c][std::size_t(Dim + d)] + 0.5 * skin) + 1;
+    }
+    for_each_index(bins, [&](const IndexVec<Dim>& at) {
+      GlobalIndex bin = 0;
+      for (int d = Dim - 1; d >= 0; --d) bin = bin * bins_per_axis + at[d];
+      entries.push_back({bin, LocalIndex(c)});
+    });
   }
   std::sort(entries.begin(), entries.end());
   pairs_.clear();
@@ -160,8 +186,8 @@ void OverlapContact::list_pairs(double skin)
                                    [&](const Entry& entry) { return entry.bin != first->bin; });
     for (auto a = first; a != last && a->cell < cells(); ++a)
       for (auto b = a + 1; b != last; ++b)
-        if (can_meet(a->cell, b->cell) &&
-            meet(boxes_[std::size_t(a->cell)], boxes_[std::size_t(b->cell)], skin))
+        if (meet<Dim>(boxes_[std::size_t(a->cell)], boxes_[std::size_t(b->cell)], skin) &&
+            can_meet(a->cell, b->cell))
           pairs_.push_back({a->cell, b->cell});
     first = last;
   }
@@ -169,15 +195,18 @@ void OverlapContact::list_pairs(double skin)
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
   turned_.resize(pairs_.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const auto& a = locations_[std::size_t(pairs_[k].first)];
-    const auto& b = locations_[std::size_t(pairs_[k].second)];
-    turned_[k] = std::tie(a[1], a[0]) > std::tie(b[1], b[0]);
+    const IndexVec<Dim>& a = locations_[std::size_t(pairs_[k].first)];
+    const IndexVec<Dim>& b = locations_[std::size_t(pairs_[k].second)];
+    turned_[k] = std::lexicographical_compare(
+        std::make_reverse_iterator(b.end()), std::make_reverse_iterator(b.begin()),
+        std::make_reverse_iterator(a.end()), std::make_reverse_iterator(a.begin()));
   }
 }
 
 /// Candidates without a pair go, and their owners are told which are left; and of which pairs this
 /// rank must know what their other side comes to.
-void OverlapContact::keep_needed(std::vector<Ghosts::Peer> peers)
+template <int Dim>
+void OverlapContact<Dim>::keep_needed(std::vector<Ghosts::Peer> peers)
 {
   std::vector<std::vector<LocalIndex>> pairs_of(stiffness_.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k)
@@ -202,8 +231,8 @@ void OverlapContact::keep_needed(std::vector<Ghosts::Peer> peers)
       if (pairs_of[ghost].empty()) continue;
       list.insert(list.end(), {double(k), double(pairs_of[ghost].size())});
       for (const LocalIndex pair : pairs_of[ghost]) {
-        const IndexVec<2>& at = locations_[std::size_t(pairs_[std::size_t(pair)].first)];
-        list.insert(list.end(), {double(at[0]), double(at[1])});
+        const IndexVec<Dim>& at = locations_[std::size_t(pairs_[std::size_t(pair)].first)];
+        list.insert(list.end(), at.begin(), at.end());
         pairs_[std::size_t(pair)].second = next;
         second_side_[std::size_t(pair)] = next_side++;
       }
@@ -218,7 +247,7 @@ void OverlapContact::keep_needed(std::vector<Ghosts::Peer> peers)
   stiffness_.resize(std::size_t(next));
   locations_.resize(std::size_t(next));
   images_.resize(std::size_t(next));
-  corners_.resize(std::size_t(next) * corner_values);
+  values_.resize(std::size_t(next) * Overlaps::values);
   for (auto* values : {&sides_, &stiffnesses_, &parts_of_face_})
     values->assign(std::size_t(next_side), 0.0);
   answer(peers, traded_over_ranks(comm_, out), sides);
@@ -227,16 +256,25 @@ void OverlapContact::keep_needed(std::vector<Ghosts::Peer> peers)
 }
 
 /// What the others asked for: cells of this rank, and for each the cells of theirs that it meets.
-void OverlapContact::answer(std::vector<Ghosts::Peer>& peers,
-                            const std::vector<std::vector<double>>& asked,
-                            std::vector<Ghosts::Peer>& sides) const
+template <int Dim>
+void OverlapContact<Dim>::answer(std::vector<Ghosts::Peer>& peers,
+                                 const std::vector<std::vector<double>>& asked,
+                                 std::vector<Ghosts::Peer>& sides) const
 {
-  std::map<std::array<LocalIndex, 4>, LocalIndex> numbers;  // by cell, the other's location, image
+  // By cell, the other's location and image.
+  using Key = std::array<LocalIndex, Dim + 2>;
+  std::map<Key, LocalIndex> numbers;
+  const auto key_of = [](LocalIndex cell, const auto* location, int image) {
+    Key key;
+    key[0] = cell;
+    for (std::size_t d = 0; d < Dim; ++d) key[1 + d] = LocalIndex(location[d]);
+    key[Dim + 1] = image;
+    return key;
+  };
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const auto other = std::size_t(pairs_[k].second);
     if (pairs_[k].second >= cells())
-      numbers[{pairs_[k].first, locations_[other][0], locations_[other][1], images_[other]}] =
-          LocalIndex(k);
+      numbers[key_of(pairs_[k].first, locations_[other].data(), images_[other])] = LocalIndex(k);
   }
   for (Ghosts::Peer& peer : peers) {
     const std::vector<double>& list = asked[std::size_t(peer.rank)];
@@ -246,10 +284,9 @@ void OverlapContact::answer(std::vector<Ghosts::Peer>& peers,
       sent.push_back(cell);
       const auto met = std::size_t(list[at + 1]);
       at += 2;
-      for (std::size_t k = 0; k < met; ++k, at += 2) {
+      for (std::size_t k = 0; k < met; ++k, at += Dim) {
         // Seen from here, theirs is as far the other way.
-        const auto found = numbers.find(
-            {cell.item, LocalIndex(list[at]), LocalIndex(list[at + 1]), 2 * itself - cell.image});
+        const auto found = numbers.find(key_of(cell.item, &list[at], 2 * itself - cell.image));
         // Where rounding keeps a pair out on this side it does not touch: the zero.
         sides[std::size_t(peer.rank)].sent.push_back(
             {found == numbers.end() ? LocalIndex(pairs_.size()) : found->second, itself});
@@ -258,5 +295,14 @@ void OverlapContact::answer(std::vector<Ghosts::Peer>& peers,
     peer.sent = std::move(sent);
   }
 }
+
+template IndexVec<2> OverlapContact<2>::apart(LocalIndex, LocalIndex) const;
+template Vec<2> OverlapContact<2>::shift_of(int) const;
+template void OverlapContact<2>::find_pairs(const MeshNodes<2>&, double);
+template double OverlapContact<2>::largest_way(const MeshNodes<2>&) const;
+template IndexVec<3> OverlapContact<3>::apart(LocalIndex, LocalIndex) const;
+template Vec<3> OverlapContact<3>::shift_of(int) const;
+template void OverlapContact<3>::find_pairs(const MeshNodes<3>&, double);
+template double OverlapContact<3>::largest_way(const MeshNodes<3>&) const;
 
 }  // namespace mpm

@@ -179,5 +179,7 @@ template void TotalLagrangian<2>::add_masses();
 template void TotalLagrangian<3>::add_masses();
 template IndexVec<2> TotalLagrangian<2>::location_of(const Body<2>&, LocalIndex) const;
 template IndexVec<2> TotalLagrangian<2>::period() const;
+template IndexVec<3> TotalLagrangian<3>::location_of(const Body<3>&, LocalIndex) const;
+template IndexVec<3> TotalLagrangian<3>::period() const;
 
 }  // namespace mpm

@@ -95,10 +95,6 @@ void check_run(const Checked& checked)
 
   const Numerics& numerics = scene.numerics;
   check_stability(checked);
-  if (numerics.formulation == FormulationKind::total_lagrangian && scene.dimensions == 3 &&
-      numerics.contact_stiffness > 0)
-    checked.refuse("numerics.contact_stiffness", "cells meet each other in the plane only",
-                   "Leave it out of scenes in space");
   if (numerics.f_bar && numerics.plane == Plane::stress)
     checked.refuse("numerics.f_bar", "in plane stress the thickness follows, and nothing locks",
                    "Leave it out");

@@ -97,10 +97,6 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   Problems problems;
   const Definitions definitions = definitions_of(root, keys.dimensions);
   read_map(Given{root, "", problems, definitions}, keys, keys.dimensions);
-  Numerics& numerics = keys.numerics;
-  if (keys.dimensions == 3 && numerics.formulation == FormulationKind::total_lagrangian &&
-      !numerics.contact_stiffness)
-    numerics.contact_stiffness = 0;  // bricks do not meet
   if (auto& micrograph = keys.specimen.micrograph) {
     const auto folder = std::filesystem::absolute(file).parent_path();
     micrograph->file = (folder / micrograph->file).lexically_normal();

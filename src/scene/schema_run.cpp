@@ -48,7 +48,7 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                  .default_text = "2 of total_lagrangian, 0.5 of walls with grip: contact"},
                 "times the modulus of the fastest wave times the depth over the size of a location "
                 "is the pressure of a wall with grip: contact, and half of that across a flush "
-                "contact of total_lagrangian in the plane; 0 there: no contact"),
+                "contact of total_lagrangian; 0 there: no contact"),
       member<N>("friction", &N::friction, {.bound = at_least(0)},
                 "Coulomb's coefficient where cells meet; large: what meets sticks")
           .when(of_cells),

@@ -50,7 +50,7 @@ struct Found {
 Found contact_of(MPI_Comm comm, const Scene& scene)
 {
   const int me = rank_of(comm), ranks = ranks_of(comm);
-  std::vector<OverlapContact::Cell> own;
+  std::vector<OverlapContact<2>::Cell> own;
   std::vector<IndexVec<2>> nodes;
   std::vector<int> numbers;
   for (int c = me; c < cells; c += ranks) {
@@ -59,7 +59,7 @@ Found contact_of(MPI_Comm comm, const Scene& scene)
     own.push_back({{first, first + 1, first + 2, first + 3},
                    IndexVec<2>(2 * (c % 8), 2 * (c / 8)),
                    stiffness,
-                   15,
+                   OpenCorners<2>::all(),
                    0,
                    c});
     numbers.push_back(c);
@@ -70,7 +70,7 @@ Found contact_of(MPI_Comm comm, const Scene& scene)
     for (int d = 0; d < 2; ++d)
       fields.updated_of(LocalIndex(n))[d] = scene.corners(d, 4 * numbers[n / 4] + int(n % 4));
   mesh.move(fields, 1);
-  OverlapContact contact(comm, own, 2, size, scene.period);
+  OverlapContact<2> contact(comm, own, 2, size, scene.period);
   contact.find_pairs(mesh, skin);
   contact.measure(mesh);
   contact.add_forces(fields);
@@ -146,7 +146,7 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
   constexpr int across = 10;
   for (const auto& [depth, shift] : std::to_array<std::pair<double, double>>(
            {{0.001, 0.0}, {0.001, 0.5}, {0.03, 0.0}, {0.03, 0.1}, {0.03, 0.5}, {0.03, 0.7}})) {
-    std::vector<OverlapContact::Cell> surface;
+    std::vector<OverlapContact<2>::Cell> surface;
     std::vector<Vec<2>> places;
     for (int row = 0; row < 2; ++row)
       for (int c = 0; c < across; ++c) {
@@ -158,7 +158,7 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
         surface.push_back({{first, first + 1, first + 2, first + 3},
                            IndexVec<2>(c, 5 * row),
                            stiffness,
-                           15,
+                           OpenCorners<2>::all(),
                            0,
                            c});
       }
@@ -168,7 +168,7 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
     for (std::size_t n = 0; n < places.size(); ++n)
       for (int d = 0; d < 2; ++d) fields.updated_of(LocalIndex(n))[d] = places[n][d];
     mesh.move(fields, 1);
-    OverlapContact contact(MPI_COMM_SELF, surface, 2, size, IndexVec<2>::Zero());
+    OverlapContact<2> contact(MPI_COMM_SELF, surface, 2, size, IndexVec<2>::Zero());
     contact.find_pairs(mesh, skin);
     contact.measure(mesh);
     contact.add_forces(fields);

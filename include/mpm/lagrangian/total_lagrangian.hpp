@@ -24,7 +24,7 @@ class TotalLagrangian final : public Formulation<Dim> {
     Vec<Dim> location_size;  ///< m
     double thickness = 1;    ///< m, of the plane
     /// kappa: across a flush face the pressure of contact is 2 kappa C times the depth over the
-    /// size of a location. 0, and always so in space: bodies go through each other.
+    /// size of a location. 0: bodies go through each other.
     double contact_stiffness = 2;
     double friction = 0;  ///< Coulomb's coefficient of contact
     /// Cells with a smaller least stretch are made heavier by the square of this over it, so that

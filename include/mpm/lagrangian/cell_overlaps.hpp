@@ -1,0 +1,127 @@
+#pragma once
+/// What contact has to know of the form of its cells: quadrilaterals of the plane (overlap.hpp), or
+/// the affine part of bricks (brick_overlap.hpp).
+
+#include <mpm/core/lane_vector.hpp>
+#include <mpm/core/lanes.hpp>
+#include <mpm/core/types.hpp>
+#include <mpm/lagrangian/brick_overlap.hpp>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace mpm {
+
+/// Lower corner, then upper one, m.
+template <int Dim>
+using CellBox = std::array<double, 2 * std::size_t(Dim)>;
+
+/// Whether boxes are nearer than `distance`, m.
+template <int Dim>
+bool meet(const CellBox<Dim>& a, const CellBox<Dim>& b, double distance)
+{
+  for (std::size_t d = 0; d < Dim; ++d)
+    if (!(a[d] < b[Dim + d] + distance && b[d] < a[Dim + d] + distance)) return false;
+  return true;
+}
+
+template <int Dim>
+using CornerPlaces = std::array<Vec<Dim>, std::size_t(1 << Dim)>;
+
+/// Derivatives of an overlap by corners of a cell, and which these are: a triangle names one twice.
+template <int Dim>
+struct OverlapSlopes {
+  CornerPlaces<Dim> by;  ///< m, in space m^2
+  std::array<std::size_t, std::size_t(1 << Dim)> corner;
+
+  /// By the place of the whole cell.
+  Vec<Dim> together() const
+  {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (const Vec<Dim>& slope : by) sum += slope;
+    return sum;
+  }
+};
+
+/// Two cells that may lie upon each other: a number, and what CellOverlaps::describe says of
+/// either.
+struct MeetingCells {
+  std::size_t pair;
+  const double *first, *second;
+};
+
+/// Overlaps of many pairs. `order`: of a location's corners (LocationMesh), as they are here;
+/// `values`: how many describe a cell.
+template <int Dim>
+class CellOverlaps;
+
+template <>
+class CellOverlaps<2> {
+ public:
+  static constexpr std::array<std::size_t, 4> order{0, 1, 3, 2};  ///< counter-clockwise
+  static constexpr int values = 8;                                ///< x and y of the corners, m
+
+  static void describe(const CornerPlaces<2>& corners, double* values);
+  static void shift(const Vec<2>& way, double* values);
+  static CellBox<2> box_of(const double* values);
+
+  /// Cells with a reflex corner come as two triangles, so that a pair may have several entries,
+  /// which stand side by side in the order of `cells`.
+  void find(std::span<const MeetingCells> cells);
+  std::size_t size() const { return near_.size(); }
+  std::size_t pair(std::size_t entry) const { return near_[entry].cells.pair; }
+  double overlap(std::size_t entry) const { return *values_of(entry); }  ///< m^2
+  /// `side`: 0, of the first cell, or 1.
+  OverlapSlopes<2> slopes(std::size_t entry, int side) const;
+  std::size_t bytes() const
+  {
+    return near_.capacity() * sizeof(Near) + overlaps_.capacity() * sizeof(double);
+  }
+
+ private:
+  /// Parts of a pair's cells: 0 is all of one, the others are triangles.
+  struct Near {
+    MeetingCells cells;
+    std::array<int, 2> pieces;
+  };
+  /// Of lane_count entries: areas, and their derivatives by 16 coordinates.
+  static constexpr int values_per_group = 17 * lane_count;
+  const double* values_of(std::size_t entry) const
+  {
+    return &overlaps_[entry / lane_count * values_per_group + entry % lane_count];
+  }
+  void list_near(std::span<const MeetingCells> cells);
+
+  std::vector<Near> near_;
+  LaneVector<double> overlaps_;
+};
+
+template <>
+class CellOverlaps<3> {
+ public:
+  static constexpr std::array<std::size_t, 8> order{0, 1, 2, 3, 4, 5, 6, 7};
+  static constexpr int values = 12;  ///< centre and edges, m
+
+  static void describe(const CornerPlaces<3>& corners, double* values);
+  static void shift(const Vec<3>& way, double* values);
+  static CellBox<3> box_of(const double* values);
+
+  /// Those that lie upon each other, in the order of `cells`.
+  void find(std::span<const MeetingCells> cells);
+  std::size_t size() const { return near_.size(); }
+  std::size_t pair(std::size_t entry) const { return near_[entry].pair; }
+  double overlap(std::size_t entry) const { return near_[entry].overlap.volume; }  ///< m^3
+  OverlapSlopes<3> slopes(std::size_t entry, int side) const;
+  std::size_t bytes() const { return near_.capacity() * sizeof(Near); }
+
+ private:
+  struct Near {
+    std::size_t pair;
+    BrickOverlap overlap;
+  };
+  std::vector<Near> near_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,121 @@
+/// Areas on which quadrilaterals lie upon each other, in lanes.
+
+#include <mpm/lagrangian/cell_overlaps.hpp>
+#include <mpm/lagrangian/overlap.hpp>
+
+#include <algorithm>
+
+namespace mpm {
+
+namespace {
+
+/// Which corner is more than straight, or -1.
+int reflex_corner(const double* corners)
+{
+  const double *x = corners, *y = corners + 4;
+  // Twice the areas of the triangles that the corners cut off.
+  const auto cut_off = [&](std::size_t last, std::size_t at, std::size_t next) {
+    return (x[at] - x[last]) * (y[next] - y[at]) - (y[at] - y[last]) * (x[next] - x[at]);
+  };
+  const double least[4] = {cut_off(3, 0, 1), cut_off(0, 1, 2), cut_off(1, 2, 3), cut_off(2, 3, 0)};
+  const auto* narrowest = std::min_element(least, least + 4);
+  return *narrowest < 0 ? int(narrowest - least) : -1;
+}
+
+/// Counter-clockwise: a whole cell, then for each corner that may be a reflex one the two triangles
+/// through it.
+constexpr std::array<std::array<std::size_t, 4>, 9> pieces{{{0, 1, 2, 3},
+                                                            {0, 1, 2, 2},
+                                                            {0, 2, 3, 3},
+                                                            {1, 2, 3, 3},
+                                                            {1, 3, 0, 0},
+                                                            {2, 3, 0, 0},
+                                                            {2, 0, 1, 1},
+                                                            {3, 0, 1, 1},
+                                                            {3, 1, 2, 2}}};
+
+}  // namespace
+
+void CellOverlaps<2>::describe(const CornerPlaces<2>& corners, double* values)
+{
+  for (std::size_t k = 0; k < 4; ++k) {
+    values[k] = corners[k][0];
+    values[k + 4] = corners[k][1];
+  }
+}
+
+void CellOverlaps<2>::shift(const Vec<2>& way, double* values)
+{
+  for (int k = 0; k < CellOverlaps::values; ++k) values[k] += way[k < 4 ? 0 : 1];
+}
+
+CellBox<2> CellOverlaps<2>::box_of(const double* at)
+{
+  const auto [left, right] = std::minmax({at[0], at[1], at[2], at[3]});
+  const auto [lower, upper] = std::minmax({at[4], at[5], at[6], at[7]});
+  return {left, lower, right, upper};
+}
+
+void CellOverlaps<2>::list_near(std::span<const MeetingCells> cells)
+{
+  near_.clear();
+  const auto pieces_of = [](const double* corners) {
+    const int reflex = reflex_corner(corners);
+    return reflex < 0 ? std::pair(0, 1) : std::pair(1 + 2 * reflex, 3 + 2 * reflex);
+  };
+  for (const MeetingCells& pair : cells) {
+    const auto [first, last] = pieces_of(pair.first);
+    const auto [other_first, other_last] = pieces_of(pair.second);
+    for (int one = first; one < last; ++one)
+      for (int other = other_first; other < other_last; ++other)
+        near_.push_back({pair, {one, other}});
+  }
+}
+
+void CellOverlaps<2>::find(std::span<const MeetingCells> cells)
+{
+  list_near(cells);
+  const std::size_t groups = (near_.size() + lane_count - 1) / lane_count;
+  overlaps_.resize(groups * values_per_group);
+  for (std::size_t g = 0; g < groups; ++g) {
+    alignas(lane_alignment) double a[values * lane_count], b[values * lane_count];
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const auto& [pair, parts] = near_[std::min(g * lane_count + lane, near_.size() - 1)];
+      const auto& one = pieces[std::size_t(parts[0])];
+      const auto& other = pieces[std::size_t(parts[1])];
+      for (std::size_t k = 0; k < values; ++k) {
+        const std::size_t axis = k < 4 ? 0 : 4;
+        a[k * lane_count + lane] = pair.first[axis + one[k % 4]] - pair.first[axis];
+        b[k * lane_count + lane] = pair.second[axis + other[k % 4]] - pair.first[axis];
+      }
+    }
+    Quads one, other;
+    for (int k = 0; k < 4; ++k) {
+      one.x[k] = load(a + k * lane_count);
+      one.y[k] = load(a + (k + 4) * lane_count);
+      other.x[k] = load(b + k * lane_count);
+      other.y[k] = load(b + (k + 4) * lane_count);
+    }
+    const Overlap overlap = overlap_of(one, other);
+    double* out = &overlaps_[g * values_per_group];
+    store(overlap.area, out);
+    for (int k = 0; k < 4; ++k) {
+      store(overlap.a_x[k], out + (1 + k) * lane_count);
+      store(overlap.a_y[k], out + (5 + k) * lane_count);
+      store(overlap.b_x[k], out + (9 + k) * lane_count);
+      store(overlap.b_y[k], out + (13 + k) * lane_count);
+    }
+  }
+}
+
+OverlapSlopes<2> CellOverlaps<2>::slopes(std::size_t entry, int side) const
+{
+  const double* derivative = values_of(entry) + (1 + 8 * side) * lane_count;
+  OverlapSlopes<2> slopes;
+  for (std::size_t c = 0; c < 4; ++c)
+    slopes.by[c] = {derivative[c * lane_count], derivative[(c + 4) * lane_count]};
+  slopes.corner = pieces[std::size_t(near_[entry].pieces[std::size_t(side)])];
+  return slopes;
+}
+
+}  // namespace mpm

@@ -1,0 +1,76 @@
+/// Volumes in which bricks lie upon each other, and what their corners have of it.
+
+#include <mpm/lagrangian/cell_overlaps.hpp>
+
+namespace mpm {
+
+namespace {
+
+double sign_of(std::size_t corner, int axis)
+{
+  return corner >> axis & 1 ? 1 : -1;
+}
+
+Parallelepiped brick_at(const double* values)
+{
+  return {Eigen::Map<const Vec<3>>(values), Eigen::Map<const Eigen::Matrix3d>(values + 3)};
+}
+
+}  // namespace
+
+/// Mean of the corners, and means of the edges along each axis.
+void CellOverlaps<3>::describe(const CornerPlaces<3>& corners, double* values)
+{
+  Eigen::Map<Vec<3>> centre(values);
+  Eigen::Map<Eigen::Matrix3d> edges(values + 3);
+  // Seen from the first corner: sums of places would lose digits.
+  centre.setZero();
+  edges.setZero();
+  for (std::size_t c = 1; c < 8; ++c) {
+    const Vec<3> way = corners[c] - corners[0];
+    centre += way / 8;
+    for (int k = 0; k < 3; ++k) edges.col(k) += sign_of(c, k) / 4 * way;
+  }
+  centre += corners[0];
+}
+
+void CellOverlaps<3>::shift(const Vec<3>& way, double* values)
+{
+  for (int d = 0; d < 3; ++d) values[d] += way[d];
+}
+
+CellBox<3> CellOverlaps<3>::box_of(const double* values)
+{
+  CellBox<3> box;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double half =
+        0.5 * (std::abs(values[3 + d]) + std::abs(values[6 + d]) + std::abs(values[9 + d]));
+    box[d] = values[d] - half;
+    box[3 + d] = values[d] + half;
+  }
+  return box;
+}
+
+void CellOverlaps<3>::find(std::span<const MeetingCells> cells)
+{
+  near_.clear();
+  for (const auto& [pair, first, second] : cells) {
+    const BrickOverlap overlap = overlap_of(brick_at(first), brick_at(second));
+    if (overlap.volume > 0) near_.push_back({pair, overlap});
+  }
+}
+
+OverlapSlopes<3> CellOverlaps<3>::slopes(std::size_t entry, int side) const
+{
+  const BrickOverlap& overlap = near_[entry].overlap;
+  const BrickOverlap::Slopes& of_cell = side == 0 ? overlap.a : overlap.b;
+  OverlapSlopes<3> slopes;
+  for (std::size_t c = 0; c < 8; ++c) {
+    slopes.by[c] = of_cell.by_centre / 8;
+    for (int k = 0; k < 3; ++k) slopes.by[c] += sign_of(c, k) / 4 * of_cell.by_edges.col(k);
+    slopes.corner[c] = c;
+  }
+  return slopes;
+}
+
+}  // namespace mpm
