@@ -95,20 +95,21 @@ void OverlapContact<Dim>::take_motion(const NodeFields<Dim>& fields)
 }
 
 template <int Dim>
-void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double coefficient, double dt,
+void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double dt,
                                        std::span<double> friction)
 {
   take_motion(fields);
   constexpr std::size_t width = corners_of_cell * values_per_corner<Dim>;
   for (std::size_t entry = 0; entry < found_.size(); ++entry) {
-    if (!(found_.overlap(entry) > 0)) continue;
+    const LocalIndex a = cell_of(entry, 0), b = cell_of(entry, 1);
+    const double coefficient = bodies_.friction(of_body_[std::size_t(a)], of_body_[std::size_t(b)]);
+    if (!(found_.overlap(entry) > 0) || coefficient == 0) continue;
     const OverlapSlopes<Dim> of_one = found_.slopes(entry, 0), of_other = found_.slopes(entry, 1);
     const Vec<Dim> slope = of_one.together();
     const double face = length_of(slope);
     if (!(face > 0)) continue;
     const Vec<Dim> normal = slope / face;
     const Shares<Dim> one(of_one, normal / face), other(of_other, -normal / face);
-    const LocalIndex a = cell_of(entry, 0), b = cell_of(entry, 1);
     const double *moving = &motion_[std::size_t(a) * width],
                  *against = &motion_[std::size_t(b) * width];
     const auto tangents = tangents_of(normal);
@@ -141,9 +142,7 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double coe
 
 template void OverlapContact<2>::take_motion(const NodeFields<2>&);
 template void OverlapContact<3>::take_motion(const NodeFields<3>&);
-template void OverlapContact<2>::add_friction(const NodeFields<2>&, double, double,
-                                              std::span<double>);
-template void OverlapContact<3>::add_friction(const NodeFields<3>&, double, double,
-                                              std::span<double>);
+template void OverlapContact<2>::add_friction(const NodeFields<2>&, double, std::span<double>);
+template void OverlapContact<3>::add_friction(const NodeFields<3>&, double, std::span<double>);
 
 }  // namespace mpm

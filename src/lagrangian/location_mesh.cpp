@@ -1,6 +1,7 @@
 #include <mpm/lagrangian/location_mesh.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <set>
 #include <tuple>
@@ -21,6 +22,19 @@ Key<Dim> key_of(const IndexVec<Dim>& at)
   return key;
 }
 
+/// Of a corner, and which of its nodes: the first body that has it.
+template <int Dim>
+using NodeKey = std::array<LocalIndex, Dim + 1>;
+
+template <int Dim>
+NodeKey<Dim> key_of(const IndexVec<Dim>& at, int body)
+{
+  NodeKey<Dim> key;
+  std::ranges::copy(key_of<Dim>(at), key.begin());
+  key[Dim] = body;
+  return key;
+}
+
 /// A rank with cells at a node, and whether it sees the node at the upper end of an axis (1) that
 /// begins again there or elsewhere (0).
 template <int Dim>
@@ -33,8 +47,8 @@ struct Reacher {
 template <int Dim>
 class Lattice {
  public:
-  Lattice(const std::function<int(const IndexVec<Dim>&)>& rank_of, const IndexVec<Dim>& period)
-      : rank_of_(rank_of), period_(period)
+  Lattice(const OccupantOf<Dim>& occupant_of, const BodyPairs& pairs, const IndexVec<Dim>& period)
+      : occupant_of_(occupant_of), pairs_(pairs), period_(period)
   {
   }
 
@@ -56,29 +70,57 @@ class Lattice {
     return at;
   }
 
-  std::set<Reacher<Dim>> reachers(const IndexVec<Dim>& corner) const
+  /// The first body that has one node with that of `cell` at a corner of it; 0 where none are
+  /// apart.
+  int first_body(const IndexVec<Dim>& corner, const IndexVec<Dim>& cell) const
   {
+    if (!pairs_.any_apart()) return 0;
+    const int body = occupant_of_(cell).body;
+    return std::countr_zero(pairs_.joined(bodies_around(corner), pairs_.bit_of(body)));
+  }
+
+  std::set<Reacher<Dim>> reachers(const IndexVec<Dim>& corner, int first_body) const
+  {
+    const unsigned joined = pairs_.joined(bodies_around(corner), pairs_.bit_of(first_body));
     std::set<Reacher<Dim>> found;
     for (int c = 0; c < LocationMesh<Dim>::corners; ++c) {
       const IndexVec<Dim> offset = LocationMesh<Dim>::offset_of(c);
-      IndexVec<Dim> cell = corner - offset;
-      for (int d = 0; d < Dim; ++d)
-        if (period_[d] > 0 && cell[d] < 0) cell[d] += period_[d];
-      if (const int rank = rank_of_(cell); rank >= 0)
-        found.insert({rank, image_of(IndexVec<Dim>(cell + offset))});
+      const IndexVec<Dim> cell = wrapped(corner - offset);
+      if (const Occupant occupant = occupant_of_(cell);
+          occupant.rank >= 0 && joined & pairs_.bit_of(occupant.body))
+        found.insert({occupant.rank, image_of(IndexVec<Dim>(cell + offset))});
     }
     return found;
   }
 
  private:
-  const std::function<int(const IndexVec<Dim>&)>& rank_of_;
+  IndexVec<Dim> wrapped(IndexVec<Dim> cell) const
+  {
+    for (int d = 0; d < Dim; ++d)
+      if (period_[d] > 0 && cell[d] < 0) cell[d] += period_[d];
+    return cell;
+  }
+  unsigned bodies_around(const IndexVec<Dim>& corner) const
+  {
+    unsigned around = 0;
+    for (int c = 0; c < LocationMesh<Dim>::corners; ++c)
+      if (const Occupant occupant =
+              occupant_of_(wrapped(folded(corner) - LocationMesh<Dim>::offset_of(c)));
+          occupant.body >= 0)
+        around |= pairs_.bit_of(occupant.body);
+    return around;
+  }
+
+  const OccupantOf<Dim>& occupant_of_;
+  const BodyPairs& pairs_;
   IndexVec<Dim> period_;
 };
 
 /// One term of the sum at a node, as both ranks see it: the lower rank's image first.
 template <int Dim>
 struct Term {
-  Key<Dim> node, first, second;
+  NodeKey<Dim> node;
+  Key<Dim> first, second;
   LocalIndex position;
 
   friend bool operator<(const Term& a, const Term& b)
@@ -87,15 +129,17 @@ struct Term {
   }
 };
 
+/// `first_body`: of each node.
 template <int Dim>
-void share(const Lattice<Dim>& lattice, int rank, const std::map<Key<Dim>, LocalIndex>& number,
-           LocationMesh<Dim>& mesh)
+void share(const Lattice<Dim>& lattice, int rank, const std::map<NodeKey<Dim>, LocalIndex>& number,
+           const std::vector<int>& first_body, LocationMesh<Dim>& mesh)
 {
   std::map<int, std::vector<Term<Dim>>> terms;
   std::vector<std::pair<Term<Dim>, LocalIndex>> own;  // with the node of the image
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     const IndexVec<Dim> node = lattice.folded(mesh.nodes[n]);
-    const auto reachers = lattice.reachers(node);
+    const int body = first_body[n];
+    const auto reachers = lattice.reachers(node, body);
     const Key<Dim> mine = lattice.image_of(mesh.nodes[n]);
     mesh.owned.push_back(reachers.empty() || *reachers.begin() == Reacher<Dim>{rank, mine});
     if (reachers.size() < 2) continue;
@@ -103,12 +147,12 @@ void share(const Lattice<Dim>& lattice, int rank, const std::map<Key<Dim>, Local
     mesh.shared.nodes.push_back(LocalIndex(n));
     for (const auto& [other, its] : reachers) {
       if (other == rank)
-        own.push_back({{key_of<Dim>(node), its, mine, position},
-                       number.at(key_of<Dim>(lattice.image_at(node, its)))});
+        own.push_back({{key_of<Dim>(node, body), its, mine, position},
+                       number.at(key_of<Dim>(lattice.image_at(node, its), body))});
       else if (other < rank)
-        terms[other].push_back({key_of<Dim>(node), its, mine, position});
+        terms[other].push_back({key_of<Dim>(node, body), its, mine, position});
       else
-        terms[other].push_back({key_of<Dim>(node), mine, its, position});
+        terms[other].push_back({key_of<Dim>(node, body), mine, its, position});
     }
   }
   std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -128,34 +172,38 @@ void share(const Lattice<Dim>& lattice, int rank, const std::map<Key<Dim>, Local
 
 template <int Dim>
 LocationMesh<Dim> make_location_mesh(std::span<const IndexVec<Dim>> cells, int rank,
-                                     const std::function<int(const IndexVec<Dim>&)>& rank_of,
+                                     const OccupantOf<Dim>& occupant_of, const BodyPairs& pairs,
                                      const IndexVec<Dim>& period)
 {
+  const Lattice<Dim> lattice(occupant_of, pairs, period);
+  const auto node_of = [&](const IndexVec<Dim>& cell, int corner) {
+    const IndexVec<Dim> at = cell + LocationMesh<Dim>::offset_of(corner);
+    return key_of<Dim>(at, lattice.first_body(at, cell));
+  };
   LocationMesh<Dim> mesh;
-  std::map<Key<Dim>, LocalIndex> number;
+  std::map<NodeKey<Dim>, LocalIndex> number;
+  std::vector<int> first_body;
   for (const IndexVec<Dim>& cell : cells)
-    for (int c = 0; c < LocationMesh<Dim>::corners; ++c)
-      number[key_of<Dim>(cell + LocationMesh<Dim>::offset_of(c))] = 0;
+    for (int c = 0; c < LocationMesh<Dim>::corners; ++c) number[node_of(cell, c)] = 0;
   for (auto& [key, node] : number) {
     node = LocalIndex(mesh.nodes.size());
     IndexVec<Dim> at;
     for (int d = 0; d < Dim; ++d) at[d] = key[std::size_t(Dim - 1 - d)];
     mesh.nodes.push_back(at);
+    first_body.push_back(key[Dim]);
   }
   for (const IndexVec<Dim>& cell : cells) {
     auto& corners = mesh.cells.emplace_back();
     for (int c = 0; c < LocationMesh<Dim>::corners; ++c)
-      corners[std::size_t(c)] = number.at(key_of<Dim>(cell + LocationMesh<Dim>::offset_of(c)));
+      corners[std::size_t(c)] = number.at(node_of(cell, c));
   }
-  share<Dim>(Lattice<Dim>(rank_of, period), rank, number, mesh);
+  share<Dim>(lattice, rank, number, first_body, mesh);
   return mesh;
 }
 
-template LocationMesh<2> make_location_mesh(std::span<const IndexVec<2>>, int,
-                                            const std::function<int(const IndexVec<2>&)>&,
-                                            const IndexVec<2>&);
-template LocationMesh<3> make_location_mesh(std::span<const IndexVec<3>>, int,
-                                            const std::function<int(const IndexVec<3>&)>&,
-                                            const IndexVec<3>&);
+template LocationMesh<2> make_location_mesh(std::span<const IndexVec<2>>, int, const OccupantOf<2>&,
+                                            const BodyPairs&, const IndexVec<2>&);
+template LocationMesh<3> make_location_mesh(std::span<const IndexVec<3>>, int, const OccupantOf<3>&,
+                                            const BodyPairs&, const IndexVec<3>&);
 
 }  // namespace mpm

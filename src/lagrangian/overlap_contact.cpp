@@ -8,11 +8,13 @@ namespace mpm {
 
 template <int Dim>
 OverlapContact<Dim>::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, double kappa,
-                                    const Vec<Dim>& size, const IndexVec<Dim>& period)
+                                    BodyPairs bodies, const Vec<Dim>& size,
+                                    const IndexVec<Dim>& period)
     : comm_(comm),
       ghosts_(comm),
       side_ghosts_(comm),
       cells_(std::move(cells)),
+      bodies_(std::move(bodies)),
       size_(size),
       period_(period),
       cell_volume_(size.prod()),

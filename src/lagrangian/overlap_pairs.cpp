@@ -23,13 +23,15 @@ IndexVec<Dim> OverlapContact<Dim>::apart(LocalIndex from, LocalIndex to) const
   return apart;
 }
 
-/// Neighbours with a face in common cannot, nor those around a node or edge where all cells are;
-/// and what is behind the outer layer on both sides does not before the layers themselves.
+/// Bodies that are apart can anywhere. Neighbours with a face in common cannot, nor those around a
+/// node or edge where all cells are; and what is behind the outer layer on both sides does not
+/// before the layers themselves.
 template <int Dim>
 bool OverlapContact<Dim>::can_meet(LocalIndex own, LocalIndex other) const
 {
   const OpenCorners<Dim>& open = open_[std::size_t(own)];
   if (open.is_behind() && open_[std::size_t(other)].is_behind()) return false;
+  if (bodies_.are_apart(of_body_[std::size_t(own)], of_body_[std::size_t(other)])) return true;
   const IndexVec<Dim> apart = this->apart(own, other);
   if (apart.cwiseAbs().maxCoeff() > 1) return true;
   return apart.cwiseAbs().sum() > 1 && open.towards(apart);
@@ -47,11 +49,13 @@ void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
   stiffness_.resize(own);
   locations_.resize(own);
   open_.resize(own);
+  of_body_.resize(own);
   images_.assign(own, itself);
   for (std::size_t c = 0; c < own; ++c) {
     stiffness_[c] = cells_[c].stiffness;
     locations_[c] = cells_[c].location;
     open_[c] = cells_[c].open;
+    of_body_[c] = cells_[c].body;
   }
   take_places(nodes);
   find_boxes();
@@ -123,7 +127,8 @@ std::vector<Ghosts::Peer> OverlapContact<Dim>::add_candidates(double skin)
         std::vector<double>& list = out[std::size_t(r)];
         const Cell& cell = cells_[std::size_t(c)];
         list.insert(list.end(), cell.location.begin(), cell.location.end());
-        list.insert(list.end(), {cell.stiffness, double(cell.open.bits()), double(image)});
+        list.insert(list.end(),
+                    {cell.stiffness, double(cell.open.bits()), double(cell.body), double(image)});
         list.insert(list.end(), values_of(c), values_of(c) + Overlaps::values);
         Overlaps::shift(shift, &*list.end() - Overlaps::values);
       }
@@ -136,7 +141,7 @@ template <int Dim>
 void OverlapContact<Dim>::add_ghosts(std::vector<Ghosts::Peer>& peers,
                                      const std::vector<std::vector<double>>& sent)
 {
-  constexpr std::size_t values = Dim + 3 + std::size_t(Overlaps::values);
+  constexpr std::size_t values = Dim + 4 + std::size_t(Overlaps::values);
   for (std::size_t r = 0; r < peers.size(); ++r) {
     const std::vector<double>& list = sent[r];
     Ghosts::Peer& peer = peers[r];
@@ -149,8 +154,9 @@ void OverlapContact<Dim>::add_ghosts(std::vector<Ghosts::Peer>& peers,
       const double* of_cell = &list[k + Dim];
       stiffness_.push_back(of_cell[0]);
       open_.emplace_back(unsigned(of_cell[1]));
-      images_.push_back(int(of_cell[2]));
-      values_.insert(values_.end(), of_cell + 3, of_cell + 3 + Overlaps::values);
+      of_body_.push_back(int(of_cell[2]));
+      images_.push_back(int(of_cell[3]));
+      values_.insert(values_.end(), of_cell + 4, of_cell + 4 + Overlaps::values);
     }
   }
 }
@@ -238,6 +244,7 @@ void OverlapContact<Dim>::keep_needed(std::vector<Ghosts::Peer> peers)
       }
       stiffness_[std::size_t(next)] = stiffness_[ghost];
       locations_[std::size_t(next)] = locations_[ghost];
+      of_body_[std::size_t(next)] = of_body_[ghost];
       images_[std::size_t(next++)] = images_[ghost];
     }
     peer.first = first;
@@ -246,6 +253,7 @@ void OverlapContact<Dim>::keep_needed(std::vector<Ghosts::Peer> peers)
   }
   stiffness_.resize(std::size_t(next));
   locations_.resize(std::size_t(next));
+  of_body_.resize(std::size_t(next));
   images_.resize(std::size_t(next));
   values_.resize(std::size_t(next) * Overlaps::values);
   for (auto* values : {&sides_, &stiffnesses_, &parts_of_face_})

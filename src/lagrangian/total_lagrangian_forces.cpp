@@ -30,7 +30,7 @@ void TotalLagrangian<Dim>::add_forces(double dt)
     contact_->add_forces(*fields_);
     if (!friction_.empty()) {
       std::fill(friction_.begin(), friction_.end(), 0.0);
-      contact_->add_friction(*fields_, setup_.friction, dt, friction_);
+      contact_->add_friction(*fields_, dt, friction_);
     }
   }
   std::vector<NodeColumn> columns{fields_->force_column()};

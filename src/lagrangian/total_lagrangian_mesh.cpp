@@ -69,34 +69,37 @@ void TotalLagrangian<Dim>::make_mesh()
 
   // Locations of this rank, and those of others within two of a border between ranks.
   std::vector<IndexVec<Dim>> cells;
-  std::map<LocationKey<Dim>, int> taken;
+  std::map<LocationKey<Dim>, Occupant> taken;
   std::vector<double> at_borders;
-  for (const Body<Dim>& body : setup_.bodies)
-    for (LocalIndex p = 0; p < body.particles.size(); ++p) {
-      const IndexVec<Dim> location = location_of(body, p);
+  for (int b = 0; b < int(setup_.bodies.size()); ++b)
+    for (LocalIndex p = 0; p < setup_.bodies[std::size_t(b)].particles.size(); ++p) {
+      const IndexVec<Dim> location = location_of(setup_.bodies[std::size_t(b)], p);
       cells.push_back(location);
-      taken[key_of<Dim>(location)] = me;
+      taken[key_of<Dim>(location)] = {me, b};
       bool at_border = false;
       const IndexVec<Dim> below = (location.array() - 2).matrix(),
                           above = (location.array() + 2).matrix();
       for_each_index(
           IndexBox<Dim>{cell_of(below), (cell_of(above).array() + 1).matrix()},
           [&](const IndexVec<Dim>& cell) { at_border = at_border || owner_of(cell) != me; });
-      if (at_border) at_borders.insert(at_borders.end(), location.begin(), location.end());
+      if (!at_border) continue;
+      at_borders.insert(at_borders.end(), location.begin(), location.end());
+      at_borders.push_back(b);
     }
   const MPI_Comm comm = decomposition_.comm();
   const std::vector<double> all = joined_over_ranks(comm, at_borders);
-  for (std::size_t k = 0; k < all.size(); k += Dim) {
+  for (std::size_t k = 0; k < all.size(); k += Dim + 1) {
     IndexVec<Dim> location;
     for (int d = 0; d < Dim; ++d) location[d] = LocalIndex(all[k + std::size_t(d)]);
-    taken.try_emplace(key_of<Dim>(location), owner_of(cell_of(location)));
+    taken.try_emplace(key_of<Dim>(location),
+                      Occupant{owner_of(cell_of(location)), int(all[k + Dim])});
   }
-  const std::function<int(const IndexVec<Dim>&)> rank_of = [&](const IndexVec<Dim>& location) {
+  const OccupantOf<Dim> occupant_of = [&](const IndexVec<Dim>& location) {
     const auto found = taken.find(key_of<Dim>(location));
-    return found == taken.end() ? -1 : found->second;
+    return found == taken.end() ? Occupant{} : found->second;
   };
 
-  LocationMesh<Dim> mesh = make_location_mesh<Dim>(cells, me, rank_of, period);
+  LocationMesh<Dim> mesh = make_location_mesh<Dim>(cells, me, occupant_of, setup_.pairs, period);
   nodes_.emplace(std::move(mesh.nodes), std::move(mesh.owned), setup_.location_size, period);
   run_ = nodes_->run();
   fields_.emplace(nodes_->size(), mesh_needs<Dim>(!setup_.slots.loads.empty()), 0.0);
@@ -109,8 +112,9 @@ void TotalLagrangian<Dim>::make_mesh()
   }
   least_stretches_.resize(cells_.size());
   if constexpr (Dim == 2) list_node_terms();
-  if (setup_.contact_stiffness > 0) make_contact(mesh.cells, rank_of);
-  if (contact_ && setup_.friction > 0) friction_.assign(Dim * std::size_t(nodes_->size()), 0.0);
+  if (setup_.contact_stiffness > 0) make_contact(mesh.cells, occupant_of);
+  if (contact_ && setup_.pairs.any_friction())
+    friction_.assign(Dim * std::size_t(nodes_->size()), 0.0);
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@ namespace {
 void check_names(const Checked& checked, const std::string& key,
                  const std::vector<std::string>& between)
 {
+  const bool of_cells = checked.scene.numerics.formulation == FormulationKind::total_lagrangian;
   if (between.size() != 2)
     return checked.refuse(key, "contact is between two bodies", "Name two materials");
   const std::vector<std::string> names = checked.material_names();
@@ -23,7 +24,7 @@ void check_names(const Checked& checked, const std::string& key,
              !checked.scene.materials[index].law->deformable())
       checked.refuse(path, "it is rigid: all bodies stick to it",
                      "Give it a law that can be deformed");
-    else if (k == 1 && between[0] == between[1])
+    else if (k == 1 && between[0] == between[1] && !of_cells)
       checked.refuse(path, "a body moves in one velocity field and cannot touch itself",
                      "Name another material, or use formulation: total_lagrangian");
   }
@@ -41,10 +42,15 @@ void check_contact(const Checked& checked)
   const std::vector<BodyContact>& contacts = checked.scene.contacts;
   if (contacts.empty() || !checked.sound("contact")) return;
   const Numerics& numerics = checked.scene.numerics;
-  if (numerics.formulation == FormulationKind::total_lagrangian)
-    checked.refuse("numerics.formulation", "it has a contact of its own, without friction",
-                   "Leave out contact, or use updated_lagrangian");
-  else if (numerics.scheme->refines)
+  if (numerics.formulation == FormulationKind::total_lagrangian) {
+    if (contact_stiffness(numerics) == 0)
+      checked.refuse("numerics.contact_stiffness", "bodies would go through each other",
+                     "Leave it out");
+    constexpr std::size_t most = 31;  // and a load cell
+    if (checked.scene.materials.size() > most)
+      checked.refuse("contact", fmt::format("of {} materials", checked.scene.materials.size()),
+                     fmt::format("Use at most {}", most));
+  } else if (numerics.scheme->refines)
     checked.refuse("numerics.scheme", "refined velocities would go through the contact again",
                    "Use scheme: flip");
   else if (!numerics.update_order->begins_with_force)

@@ -49,9 +49,6 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 "times the modulus of the fastest wave times the depth over the size of a location "
                 "is the pressure of a wall with grip: contact, and half of that across a flush "
                 "contact of total_lagrangian; 0 there: no contact"),
-      member<N>("friction", &N::friction, {.bound = at_least(0)},
-                "Coulomb's coefficient where cells meet; large: what meets sticks")
-          .when(of_cells),
       member<N>("mass_scaling", &N::mass_scaling,
                 {.bound = from_to(0, 1), .default_text = "0.8 under a piston; 0 in free motion"},
                 "cells with a smaller least stretch are made heavier, by the square of this over "

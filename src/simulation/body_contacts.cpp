@@ -20,10 +20,22 @@ std::vector<int> fields_of_bodies(const scene::Scene& scene, const std::vector<s
   return fields;
 }
 
+BodyPairs pairs_of_bodies(const scene::Scene& scene, const std::vector<std::string>& names)
+{
+  BodyPairs pairs(int(names.size()));
+  for (const scene::BodyContact& contact : scene.contacts) {
+    const auto first = std::ranges::find(names, contact.between[0]);
+    const auto second = std::ranges::find(names, contact.between[1]);
+    if (first != names.end() && second != names.end())
+      pairs.add(int(first - names.begin()), int(second - names.begin()), contact.friction);
+  }
+  return pairs;
+}
+
 template <int Dim>
 void add_contact(const scene::Scene& scene, const Layout<Dim>& layout, Model<Dim>& model)
 {
-  if (scene.contacts.empty()) return;
+  if (scene.contacts.empty() || is_total_lagrangian(scene.numerics)) return;
   std::vector<std::string> names;
   for (const Body<Dim>& body : model.bodies) names.push_back(body.name);
   const std::vector<int> fields = fields_of_bodies(scene, names);

@@ -1,4 +1,5 @@
 #include <mpm/lagrangian/total_lagrangian.hpp>
+#include <mpm/simulation/body_contacts.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
 #include <mpm/stepping/updated_lagrangian.hpp>
@@ -11,12 +12,15 @@ std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
                                                    const Decomposition<Dim>& decomposition,
                                                    Model<Dim> model)
 {
-  if (is_total_lagrangian(scene.numerics))
+  if (is_total_lagrangian(scene.numerics)) {
+    std::vector<std::string> names;
+    for (const Body<Dim>& body : model.bodies) names.push_back(body.name);
     return std::make_unique<TotalLagrangian<Dim>>(
         decomposition, typename TotalLagrangian<Dim>::Setup{
                            std::move(model.bodies), std::move(model.slots), layout.location_size,
                            scene.numerics.thickness, contact_stiffness(scene.numerics),
-                           scene.numerics.friction, mass_scaling_of(scene)});
+                           pairs_of_bodies(scene, names), mass_scaling_of(scene)});
+  }
   typename UpdatedLagrangian<Dim>::Setup setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
   setup.order = scene.numerics.update_order;

@@ -1,4 +1,5 @@
 #include <mpm/lagrangian/location_mesh.hpp>
+#include <mpm/simulation/body_contacts.hpp>
 #include <mpm/simulation/mesh_count.hpp>
 
 #include <algorithm>
@@ -9,13 +10,14 @@ namespace mpm {
 
 namespace {
 
-/// Which locations of the specimen, and of its load cell, are cells.
+/// Whose cells are the locations of the specimen and of its load cell: a material, or the number
+/// behind the last one for the load cell.
 template <int Dim>
-class Taken {
+class Lattice {
  public:
   /// `seen`: a part of the lattice; along periodic axes it is seen whole.
-  Taken(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
-        const Layout<Dim>& layout, IndexBox<Dim> seen)
+  Lattice(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+          const Layout<Dim>& layout, IndexBox<Dim> seen)
       : scene_(scene), layout_(layout), whole_(specimen.whole())
   {
     for (int d = 0; d < Dim; ++d) {
@@ -32,13 +34,17 @@ class Taken {
       if (layout_.geometry.periodic[d]) at[d] = (at[d] + whole_.upper[d]) % whole_.upper[d];
     return at;
   }
-  bool operator()(const IndexVec<Dim>& location) const
+  /// -1: nobody's.
+  int body_of(const IndexVec<Dim>& location) const
   {
     const IndexVec<Dim> at = wrapped(location);
-    if (layout_.load_cell && layout_.load_cell->locations.contains(at)) return true;
-    if (!lattice_.part.contains(at)) return false;
+    if (layout_.load_cell && layout_.load_cell->locations.contains(at))
+      return int(scene_.materials.size());
+    if (!lattice_.part.contains(at)) return -1;
     const std::int8_t material = lattice_(at);
-    return material != lattice_.empty && scene_.materials[std::size_t(material)].law->deformable();
+    return material != lattice_.empty && scene_.materials[std::size_t(material)].law->deformable()
+               ? material
+               : -1;
   }
 
  private:
@@ -62,17 +68,19 @@ struct Reachers {
   int count = 0;
   unsigned cells = 0;  ///< bit c: there is one of which the node is corner c
 
-  Reachers(const IndexVec<Dim>& corner, const Taken<Dim>& taken, const Layout<Dim>& layout,
-           const Ownership<Dim>& ownership)
+  /// Of the cells around the corner those of `bodies`, a bit each.
+  Reachers(const IndexVec<Dim>& corner, unsigned bodies, const BodyPairs& pairs,
+           const Lattice<Dim>& lattice, const Layout<Dim>& layout, const Ownership<Dim>& ownership)
   {
     for (int c = 0; c < LocationMesh<Dim>::corners; ++c) {
       const IndexVec<Dim> cell = corner - LocationMesh<Dim>::offset_of(c);
-      if (!taken(cell)) continue;
+      const int body = lattice.body_of(cell);
+      if (body < 0 || !(bodies & pairs.bit_of(body))) continue;
       cells |= 1u << c;
       unsigned image = 0;
       for (int d = 0; d < Dim; ++d)
         if (layout.geometry.periodic[d] && cell[d] < 0) image |= 1u << d;
-      insert({ownership.owner_of_cell(layout.cell_of_location(taken.wrapped(cell))), image});
+      insert({ownership.owner_of_cell(layout.cell_of_location(lattice.wrapped(cell))), image});
     }
   }
   void insert(const Reacher& reacher)
@@ -86,6 +94,17 @@ struct Reachers {
   const Reacher* begin() const { return list.data(); }
   const Reacher* end() const { return list.data() + count; }
 };
+
+template <int Dim>
+unsigned bodies_around(const IndexVec<Dim>& corner, const BodyPairs& pairs,
+                       const Lattice<Dim>& lattice)
+{
+  unsigned around = 0;
+  for (int c = 0; c < LocationMesh<Dim>::corners; ++c)
+    if (const int body = lattice.body_of(corner - LocationMesh<Dim>::offset_of(c)); body >= 0)
+      around |= pairs.bit_of(body);
+  return around;
+}
 
 constexpr std::size_t figures = 5;  // summed over parts: nodes, shared, sent, contact cells, hinges
 
@@ -115,6 +134,10 @@ std::vector<MeshCount> count_mesh(const scene::Scene& scene,
   constexpr GlobalIndex chunk_locations = 1 << 22;  // held at a time
   const auto ranks = std::size_t(ownership.ranks());
   std::vector<double> sums(ranks * figures, 0.0);
+  std::vector<std::string> names;
+  for (const scene::Material& material : scene.materials) names.push_back(material.name);
+  names.emplace_back();  // the load cell
+  const BodyPairs bodies = pairs_of_bodies(scene, names);
   std::set<std::array<int, 2>> pairs;
   IndexBox<Dim> box = specimen.whole();
   if (layout.load_cell) {
@@ -141,10 +164,21 @@ std::vector<MeshCount> count_mesh(const scene::Scene& scene,
       micrograph::slab(box, rank_of(comm), ranks_of(comm)), chunk_locations,
       [&](const IndexBox<Dim>& chunk) {
         const auto reach = IndexVec<Dim>::Constant(contact_reach);
-        const Taken<Dim> taken(scene, specimen, layout, {chunk.lower - reach, chunk.upper + reach});
+        const Lattice<Dim> lattice(scene, specimen, layout,
+                                   {chunk.lower - reach, chunk.upper + reach});
         for_each_index(chunk, [&](const IndexVec<Dim>& at) {
-          count_node({at, taken, layout, ownership});
-          if (taken(at) && near_surface<Dim>(at, taken))
+          unsigned around = bodies_around(at, bodies, lattice);
+          while (around) {
+            const unsigned joined = bodies.joined(around, around & (0u - around));
+            count_node({at, joined, bodies, lattice, layout, ownership});
+            around &= ~joined;
+          }
+          const int body = lattice.body_of(at);
+          const auto is_behind = [&](const IndexVec<Dim>& location) {
+            const int other = lattice.body_of(location);
+            return other >= 0 && !bodies.are_apart(body, other);
+          };
+          if (body >= 0 && near_surface<Dim>(at, is_behind))
             ++sums[std::size_t(ownership.owner_of_cell(layout.cell_of_location(at))) * figures + 3];
         });
       });

@@ -131,7 +131,8 @@ void plan_mesh(const Preparation<Dim>& preparation, Plan& plan)
     if (contact_stiffness(preparation.scene.numerics) > 0)
       plan.contact_cells += count.contact_cells;
   }
-  if (preparation.scene.numerics.friction > 0)
+  const auto& contacts = preparation.scene.contacts;
+  if (std::ranges::any_of(contacts, [](const auto& contact) { return contact.friction > 0; }))
     plan.nodes.columns.push_back({"friction", Dim * int(sizeof(double))});
   constexpr int corners = LocationMesh<Dim>::corners;
   for (Plan::Particles& body : plan.bodies)

@@ -70,7 +70,7 @@ Found contact_of(MPI_Comm comm, const Scene& scene)
     for (int d = 0; d < 2; ++d)
       fields.updated_of(LocalIndex(n))[d] = scene.corners(d, 4 * numbers[n / 4] + int(n % 4));
   mesh.move(fields, 1);
-  OverlapContact<2> contact(comm, own, 2, size, scene.period);
+  OverlapContact<2> contact(comm, own, 2, BodyPairs(1), size, scene.period);
   contact.find_pairs(mesh, skin);
   contact.measure(mesh);
   contact.add_forces(fields);
@@ -168,7 +168,7 @@ TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
     for (std::size_t n = 0; n < places.size(); ++n)
       for (int d = 0; d < 2; ++d) fields.updated_of(LocalIndex(n))[d] = places[n][d];
     mesh.move(fields, 1);
-    OverlapContact<2> contact(MPI_COMM_SELF, surface, 2, size, IndexVec<2>::Zero());
+    OverlapContact<2> contact(MPI_COMM_SELF, surface, 2, BodyPairs(1), size, IndexVec<2>::Zero());
     contact.find_pairs(mesh, skin);
     contact.measure(mesh);
     contact.add_forces(fields);

@@ -2,6 +2,7 @@
 /// Cells of one rank that are locations of the lattice, and the nodes at their corners.
 
 #include <mpm/core/index_box.hpp>
+#include <mpm/lagrangian/body_pairs.hpp>
 #include <mpm/parallel/shared_nodes.hpp>
 
 #include <array>
@@ -12,8 +13,9 @@
 namespace mpm {
 
 /// Cells that have an edge (in space a face) in common share its nodes, and so do those that meet
-/// in a corner alone: there a wall is a hinge. Where an axis is periodic, a rank that has cells at
-/// both ends of it holds the nodes between them twice, as images.
+/// in a corner alone: there a wall is a hinge. Bodies that are apart have nodes of their own. Where
+/// an axis is periodic, a rank that has cells at both ends of it holds the nodes between them
+/// twice, as images.
 template <int Dim>
 struct LocationMesh {
   static constexpr int corners = 1 << Dim;
@@ -28,9 +30,14 @@ struct LocationMesh {
 
   /// Of each cell, in the order in which they were given: its nodes.
   std::vector<std::array<LocalIndex, corners>> cells;
-  std::vector<IndexVec<Dim>> nodes;  ///< corners of the lattice, x fastest
+  std::vector<IndexVec<Dim>> nodes;  ///< corners of the lattice, x fastest; of bodies apart in turn
   std::vector<char> owned;           ///< by one rank each; images by nobody
   SharedNodes shared;
+};
+
+/// Who has a location, and whose body's cell it is; -1 where it is empty or beyond.
+struct Occupant {
+  int rank = -1, body = -1;
 };
 
 /// Locations beyond which none decides whether a cell is near a surface.
@@ -56,13 +63,15 @@ bool near_surface(const IndexVec<Dim>& location, const IsTaken& is_taken)
   return found;
 }
 
-/// Of one rank. `cells`: its locations; `rank_of(location)`: who has a location of the lattice, or
-/// -1 where it is empty or beyond, asked for those and the ones around them; `period`: locations
-/// after which an axis begins again, or 0. Every rank that has cells at a node finds the same. Not
-/// collective.
+template <int Dim>
+using OccupantOf = std::function<Occupant(const IndexVec<Dim>&)>;
+
+/// Of one rank. `cells`: its locations; `occupant_of` a location of the lattice is asked for those
+/// and the ones around them; `period`: locations after which an axis begins again, or 0. Every rank
+/// that has cells at a node finds the same. Not collective.
 template <int Dim>
 LocationMesh<Dim> make_location_mesh(std::span<const IndexVec<Dim>> cells, int rank,
-                                     const std::function<int(const IndexVec<Dim>&)>& rank_of,
+                                     const OccupantOf<Dim>& occupant_of, const BodyPairs& pairs,
                                      const IndexVec<Dim>& period);
 
 }  // namespace mpm

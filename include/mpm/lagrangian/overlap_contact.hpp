@@ -2,6 +2,7 @@
 /// Contact of a body with itself and with others: a penalty on the area, in space on the volume, in
 /// which surface cells lie upon each other, and Coulomb's friction.
 
+#include <mpm/lagrangian/body_pairs.hpp>
 #include <mpm/lagrangian/cell_overlaps.hpp>
 #include <mpm/lagrangian/open_corners.hpp>
 #include <mpm/lagrangian/overlap_potential.hpp>
@@ -41,8 +42,8 @@ class OverlapContact final : public SelfContact<Dim> {
   };
 
   /// This rank's cells near surfaces; `size` of a location, m, and `period` in locations.
-  OverlapContact(MPI_Comm comm, std::vector<Cell> cells, double kappa, const Vec<Dim>& size,
-                 const IndexVec<Dim>& period);
+  OverlapContact(MPI_Comm comm, std::vector<Cell> cells, double kappa, BodyPairs bodies,
+                 const Vec<Dim>& size, const IndexVec<Dim>& period);
 
   void find_pairs(const MeshNodes<Dim>& nodes, double skin) override;
   double skin() const override { return skin_; }
@@ -50,8 +51,7 @@ class OverlapContact final : public SelfContact<Dim> {
   void measure(const MeshNodes<Dim>& nodes) override;
 
   void add_forces(NodeFields<Dim>& fields) const override;
-  void add_friction(const NodeFields<Dim>& fields, double coefficient, double dt,
-                    std::span<double> friction) override;
+  void add_friction(const NodeFields<Dim>& fields, double dt, std::span<double> friction) override;
   void count_stiffness(std::span<LaneVector<double>> least_stretches) override;
   double energy() const override { return energy_; }
   double overlapped_area() const override;
@@ -131,6 +131,7 @@ class OverlapContact final : public SelfContact<Dim> {
   MPI_Comm comm_;
   Ghosts ghosts_, side_ghosts_;
   std::vector<Cell> cells_;
+  BodyPairs bodies_;
   Vec<Dim> size_;
   IndexVec<Dim> period_;
   double cell_volume_;  ///< m^3, in the plane m^2, of a cell at rest
@@ -143,6 +144,7 @@ class OverlapContact final : public SelfContact<Dim> {
   std::vector<double> stiffness_;
   std::vector<IndexVec<Dim>> locations_;
   std::vector<OpenCorners<Dim>> open_;
+  std::vector<int> of_body_;
   std::vector<int> images_;
 
   std::vector<Pair> pairs_;

@@ -30,8 +30,8 @@ class SelfContact {
 
   // At the last call of `measure`, of this rank's cells.
   virtual void add_forces(NodeFields<Dim>& fields) const = 0;
-  /// To friction[node * Dim + axis], N. Every rank calls it. `coefficient`: Coulomb's.
-  virtual void add_friction(const NodeFields<Dim>& fields, double coefficient, double dt,
+  /// To friction[node * Dim + axis], N. Every rank calls it.
+  virtual void add_friction(const NodeFields<Dim>& fields, double dt,
                             std::span<double> friction) = 0;
   virtual double energy() const = 0;  ///< J
   /// m^2, in space m^3; every overlap counts once on either cell, half each

@@ -26,7 +26,7 @@ class TotalLagrangian final : public Formulation<Dim> {
     /// kappa: across a flush face the pressure of contact is 2 kappa C times the depth over the
     /// size of a location. 0: bodies go through each other.
     double contact_stiffness = 2;
-    double friction = 0;  ///< Coulomb's coefficient of contact
+    BodyPairs pairs{};  ///< of all bodies
     /// Cells with a smaller least stretch are made heavier by the square of this over it, so that
     /// they do not shorten the step. 0: none.
     double mass_scaling = 0.8;
@@ -64,8 +64,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   using Formulation<Dim>::steps_between_checks;
 
   void make_mesh();
-  void make_contact(const std::vector<CellNodes>& cells,
-                    const std::function<int(const IndexVec<Dim>&)>& rank_of);
+  void make_contact(const std::vector<CellNodes>& cells, const OccupantOf<Dim>& occupant_of);
   void list_node_terms();
   void add_masses();
   void add_forces(double dt);

@@ -117,7 +117,6 @@ struct Numerics {
   /// pressure of a wall that pushes, and of half of that across a flush face in total_lagrangian,
   /// where 0 is none.
   std::optional<double> contact_stiffness;
-  double friction = 0;  ///< of total_lagrangian: Coulomb's coefficient where cells meet
   /// Of total_lagrangian: least stretch of cells that keep their mass. Default depends on what
   /// moves the specimen.
   std::optional<double> mass_scaling;
@@ -240,7 +239,8 @@ struct Scene {
   Numerics numerics;
   std::variant<Loading, FreeMotion> motion;
   std::vector<Load> loads;
-  std::vector<BodyContact> contacts;  ///< without any, all bodies move in one velocity field
+  /// Without any, all bodies move in one velocity field, or are one mesh.
+  std::vector<BodyContact> contacts;
   Definitions definitions;
   std::optional<ExactSolution> exact_solution;
   std::optional<long> steps;  ///< end after this many steps (benchmarks)
