@@ -143,11 +143,13 @@ Eigen::Matrix3d cofactors_of(const Eigen::Matrix3d& edges)
   return cofactors;
 }
 
-/// Whether a brick lies beyond a plane of the unit cube.
+/// Whether a brick lies beyond a plane of the unit cube, or so little within that it counts for
+/// nothing: neighbours across an edge do, all over a lattice.
 bool is_beyond(const Parallelepiped& brick)
 {
+  constexpr double least = 1e-10;
   const Vec<3> half = 0.5 * brick.edges.cwiseAbs().rowwise().sum();
-  return ((brick.centre.cwiseAbs() - half).array() > 0.5).any();
+  return ((brick.centre.cwiseAbs() - half).array() > 0.5 - least).any();
 }
 
 }  // namespace

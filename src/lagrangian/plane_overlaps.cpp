@@ -36,26 +36,6 @@ constexpr std::array<std::array<std::size_t, 4>, 9> pieces{{{0, 1, 2, 3},
 
 }  // namespace
 
-void CellOverlaps<2>::describe(const CornerPlaces<2>& corners, double* values)
-{
-  for (std::size_t k = 0; k < 4; ++k) {
-    values[k] = corners[k][0];
-    values[k + 4] = corners[k][1];
-  }
-}
-
-void CellOverlaps<2>::shift(const Vec<2>& way, double* values)
-{
-  for (int k = 0; k < CellOverlaps::values; ++k) values[k] += way[k < 4 ? 0 : 1];
-}
-
-CellBox<2> CellOverlaps<2>::box_of(const double* at)
-{
-  const auto [left, right] = std::minmax({at[0], at[1], at[2], at[3]});
-  const auto [lower, upper] = std::minmax({at[4], at[5], at[6], at[7]});
-  return {left, lower, right, upper};
-}
-
 void CellOverlaps<2>::list_near(std::span<const MeetingCells> cells)
 {
   near_.clear();

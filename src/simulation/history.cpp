@@ -44,7 +44,7 @@ template <int Dim>
 HistoryKind History<Dim>::kind() const
 {
   return {apparatus_.has_value(), apparatus_ && apparatus_->load_cell_body >= 0,
-          start_.contact.has_value(), formulation_.has_friction()};
+          start_.contact.has_value(), formulation_.has_friction(), Dim == 3};
 }
 
 template <int Dim>

@@ -67,7 +67,8 @@ std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind)
     list.push_back({energy, "J"});
   if (kind.contact) {
     list.push_back({"contact_energy", "J"});
-    list.push_back({"overlapped_area", "m2"});
+    list.push_back(kind.space ? output::HistoryColumn{"overlapped_volume", "m3"}
+                              : output::HistoryColumn{"overlapped_area", "m2"});
     list.push_back({"contact_pairs", "1"});
   }
   if (kind.friction) list.push_back({"friction_work", "J"});

@@ -58,12 +58,6 @@ class BlockInSpace(ExactLine):
                 self.compare(TOTAL, *settings, scene=BLOCK)
         self.compare(TOTAL, *PLASTIC, scene=BLOCK, exact=elastic_plastic)
 
-    def test_contact_between_cells_is_of_the_plane(self):
-        run = mpm_par(scene(BLOCK), "--check", "--set", TOTAL,
-                      "--set", "numerics.contact_stiffness=2")
-        self.assertNotEqual(run.returncode, 0)
-        self.assertIn("in the plane", run.stderr + run.stdout)
-
     def test_load_cell_reads_what_piston_and_edge_feel(self):
         from confined_compression_test import behind_load_cell
         for formulation in [], [TOTAL]:
@@ -133,7 +127,7 @@ output: {{history_lines: 50, snapshots: 0}}
         half of its stress; in the plane it is so at once."""
         formulation = "formulation: total_lagrangian"
         self.have_the_same_curves(
-            self.run_crop("plane_cells", "", "[48, 32]", formulation + ", contact_stiffness: 0"),
+            self.run_crop("plane_cells", "", "[48, 32]", formulation),
             self.run_crop("bricks", "depth: 11.2 um", "[48, 32, 4]", formulation), within=0.02)
 
 

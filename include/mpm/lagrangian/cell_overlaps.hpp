@@ -7,6 +7,7 @@
 #include <mpm/core/types.hpp>
 #include <mpm/lagrangian/brick_overlap.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -63,9 +64,23 @@ class CellOverlaps<2> {
   static constexpr std::array<std::size_t, 4> order{0, 1, 3, 2};  ///< counter-clockwise
   static constexpr int values = 8;                                ///< x and y of the corners, m
 
-  static void describe(const CornerPlaces<2>& corners, double* values);
-  static void shift(const Vec<2>& way, double* values);
-  static CellBox<2> box_of(const double* values);
+  static void describe(const CornerPlaces<2>& corners, double* values)
+  {
+    for (std::size_t k = 0; k < 4; ++k) {
+      values[k] = corners[k][0];
+      values[k + 4] = corners[k][1];
+    }
+  }
+  static void shift(const Vec<2>& way, double* values)
+  {
+    for (int k = 0; k < CellOverlaps::values; ++k) values[k] += way[k < 4 ? 0 : 1];
+  }
+  static CellBox<2> box_of(const double* at)
+  {
+    const auto [left, right] = std::minmax({at[0], at[1], at[2], at[3]});
+    const auto [lower, upper] = std::minmax({at[4], at[5], at[6], at[7]});
+    return {left, lower, right, upper};
+  }
 
   /// Cells with a reflex corner come as two triangles, so that a pair may have several entries,
   /// which stand side by side in the order of `cells`.

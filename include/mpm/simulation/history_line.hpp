@@ -28,7 +28,7 @@ struct HistoryLine {
   /// start): rounding, unless something is lost.
   double momentum_error = 0;
   double contact_energy = 0;      ///< J
-  double overlapped_area = 0;     ///< m^2
+  double overlapped_area = 0;     ///< m^2, in space volume, m^3
   GlobalIndex contact_pairs = 0;  ///< of cells, or particle and wall
   double friction_work = 0;       ///< J, in contact between bodies, since the start
   double time_step = 0;           ///< s
@@ -40,7 +40,7 @@ struct HistoryLine {
 
 /// What a history can have: stresses with a piston, one more with a load cell; contact; friction.
 struct HistoryKind {
-  bool piston = false, load_cell = false, contact = false, friction = false;
+  bool piston = false, load_cell = false, contact = false, friction = false, space = false;
 };
 std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind);
 std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind);

@@ -63,10 +63,17 @@ TEST_F(ContactInScenes, DoesNotGoWithMethodsThatWouldUndoIt)
   EXPECT_THAT(problems(with("[{between: [block, floor]}]", "{update_order: usf}")),
               ElementsAre("a.yaml:9:26: numerics.update_order is 'usf' (stress would see "
                           "velocities before contact acts). Use update_order: musl."));
-  EXPECT_THAT(
-      problems(with("[{between: [block, floor]}]", "{formulation: total_lagrangian}")),
-      ElementsAre("a.yaml:9:25: numerics.formulation is 'total_lagrangian' (it has a contact of "
-                  "its own, without friction). Leave out contact, or use updated_lagrangian."));
+}
+
+TEST_F(ContactInScenes, IsOfABodyWithItselfTooWhereCellsMeet)
+{
+  const Scene scene =
+      read(with("[{between: [floor, floor], friction: 0.2}]", "{formulation: total_lagrangian}"));
+  EXPECT_EQ(scene.contacts[0].friction, 0.2);
+  EXPECT_THAT(problems(with("[{between: [block, floor]}]",
+                            "{formulation: total_lagrangian, contact_stiffness: 0}")),
+              ElementsAre("a.yaml:9:58: numerics.contact_stiffness is 0 (bodies would go through "
+                          "each other). Leave it out."));
 }
 
 TEST_F(ContactInScenes, WallsThatPushNeedParticlesThatMoveByTheirStrain)
