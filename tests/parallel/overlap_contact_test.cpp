@@ -109,7 +109,9 @@ Found contact_of(MPI_Comm comm, const Scene<Dim>& scene)
       places.push_back(scene.corners[std::size_t(corners<Dim> * c + k)]);
   }
   Mesh<Dim> mesh(places);
-  OverlapContact<Dim> contact(comm, own, 2, BodyPairs(1), size<Dim>(), scene.period);
+  BodyPairs bodies(1);
+  bodies.add(0, 0, 0.3);
+  OverlapContact<Dim> contact(comm, own, 2, bodies, size<Dim>(), scene.period);
   contact.find_pairs(mesh.nodes, skin);
   contact.measure(mesh.nodes);
   contact.add_forces(mesh.fields);
@@ -129,7 +131,7 @@ Found contact_of(MPI_Comm comm, const Scene<Dim>& scene)
     mesh.fields.mass_of(LocalIndex(n)) = 1;
     for (int d = 0; d < Dim; ++d) mesh.fields.updated_of(LocalIndex(n))[d] = motion[place_of(n, d)];
   }
-  contact.add_friction(mesh.fields, 0.3, 1e-9, friction);
+  contact.add_friction(mesh.fields, 1e-9, friction);
   std::vector<double> sums{contact.energy(), contact.overlapped_area()};
   found.force.assign(values, 0.0);
   found.friction.assign(values, 0.0);

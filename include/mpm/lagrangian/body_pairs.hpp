@@ -22,11 +22,13 @@ class BodyPairs {
       apart_[at] = first != second;
       friction_[at] = friction;
     }
+    any_ = true;
     any_apart_ = any_apart_ || first != second;
     any_friction_ = any_friction_ || friction > 0;
   }
   bool are_apart(int a, int b) const { return any_apart_ && apart_[index(a, b)]; }
   double friction(int a, int b) const { return friction_[index(a, b)]; }
+  bool any() const { return any_; }
   bool any_apart() const { return any_apart_; }
   bool any_friction() const { return any_friction_; }
 
@@ -54,7 +56,7 @@ class BodyPairs {
   int bodies_;
   std::vector<char> apart_;
   std::vector<double> friction_;
-  bool any_apart_ = false, any_friction_ = false;
+  bool any_ = false, any_apart_ = false, any_friction_ = false;
 };
 
 }  // namespace mpm

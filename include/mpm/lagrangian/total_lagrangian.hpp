@@ -44,7 +44,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   const Decomposition<Dim>& decomposition() const override { return decomposition_; }
   LocalIndex active_nodes() const override { return nodes_->size(); }
   Carried<Dim> carried() const override;
-  bool has_friction() override { return !friction_.empty(); }
+  bool has_friction() override { return setup_.pairs.any(); }
   Reaction<Dim> take_reaction() override { return given_.take(); }
   double stress_moment() const override { return 0.5; }
   Slots<Dim>& slots() override { return setup_.slots; }

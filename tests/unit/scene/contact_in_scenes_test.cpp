@@ -72,7 +72,7 @@ TEST_F(ContactInScenes, IsOfABodyWithItselfTooWhereCellsMeet)
   EXPECT_EQ(scene.contacts[0].friction, 0.2);
   EXPECT_THAT(problems(with("[{between: [block, floor]}]",
                             "{formulation: total_lagrangian, contact_stiffness: 0}")),
-              ElementsAre("a.yaml:9:58: numerics.contact_stiffness is 0 (bodies would go through "
+              ElementsAre("a.yaml:9:62: numerics.contact_stiffness is 0 (bodies would go through "
                           "each other). Leave it out."));
 }
 
