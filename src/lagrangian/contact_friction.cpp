@@ -18,9 +18,10 @@ namespace mpm {
 
 namespace {
 
-/// Of the relative motion, that one pair may stop in a step. A corner is in up to ten pairs, and
-/// what all of them do at once must not turn its motion round.
-constexpr double stopped_at_once = 0.1;
+/// Of the relative motion, that one pair may stop in a step. A corner is in up to ten pairs, in
+/// space in four times as many, and what all of them do at once must not turn its motion round.
+template <int Dim>
+constexpr double stopped_at_once = Dim == 2 ? 0.1 : 0.04;
 
 /// Per corner: velocity, m/s, and 1 / mass, 1/kg.
 template <int Dim>
@@ -122,7 +123,7 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double coe
     const double mobility = one.mobility(moving) + other.mobility(against);
     const double most = coefficient * pressure(found_.pair(entry)) * face;
     const Vec<Dim - 1> push =
-        -std::min(most, stopped_at_once * speed / (mobility * dt)) * (slip / speed);
+        -std::min(most, stopped_at_once<Dim> * speed / (mobility * dt)) * (slip / speed);
     const auto add = [&](LocalIndex cell, const Shares<Dim>& shares, double sign) {
       if (cell >= cells()) return;
       for (std::size_t c = 0; c < corners_of_cell; ++c) {
