@@ -2,6 +2,7 @@
 #include <mpm/lagrangian/brick_overlap.hpp>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,28 +14,49 @@ namespace {
 /// stand on them but for rounding, are all within.
 constexpr double within = 1e-12;
 
-/// A convex body with three edges at every corner. Half edge 3 v + k leads away from corner v, the
-/// next one at v, in turn, is the next side of the face on which it comes back.
+/// Corner v of a brick is upper along axis k where bit k is set.
+struct HalfEdgesOfBrick {
+  std::array<int, 32> twin{}, face{};
+
+  constexpr HalfEdgesOfBrick()
+  {
+    for (int v = 0; v < 8; ++v)
+      for (int slot = 0; slot < 3; ++slot) {
+        const int axis = changed(v, slot), other = v ^ 1 << axis, back = changed(other, axis);
+        const int next = changed(other, (back + 1) % 3), normal = 3 - axis - next;
+        twin[std::size_t(4 * v + slot)] = 4 * other + back;
+        face[std::size_t(4 * v + slot)] = 2 * normal + (v >> normal & 1);
+      }
+  }
+  /// Axis of a slot and slot of an axis: at every other corner 1 and 2 change places, so that edges
+  /// follow in the same turn.
+  static constexpr int changed(int v, int slot)
+  {
+    const bool odd = ((v >> 2) ^ (v >> 1) ^ v) & 1;
+    return odd ? (3 - slot) % 3 : slot;
+  }
+};
+constexpr HalfEdgesOfBrick of_brick;
+
+/// A convex body with three edges at every corner. Half edge 4 v + k, k < 3, leads away from corner
+/// v; the next one at v, in turn, is the next side of the face along which one comes back to v.
 class Polyhedron {
  public:
   static constexpr int most_corners = 96, faces_of_brick = 6;
 
-  /// Corner v of a brick is upper along axis k where bit k is set. Its faces: 2 k, upper 2 k + 1.
+  /// Its faces: 2 k across axis k, upper 2 k + 1.
   explicit Polyhedron(const Parallelepiped& brick) : corners_(8)
   {
     for (int v = 0; v < 8; ++v) {
       kept_[v] = true;
-      Vec<3> at = brick.centre;
-      for (int k = 0; k < 3; ++k) at += (v >> k & 1 ? 0.5 : -0.5) * brick.edges.col(k);
-      for (int d = 0; d < 3; ++d) at_[v][d] = at[d];
-      for (int slot = 0; slot < 3; ++slot) {
-        const int axis = axis_in(v, slot), other = v ^ 1 << axis;
-        // Where they differ in one bit, axes come in the other turn: slots 1 and 2 change places.
-        twin_[3 * v + slot] = 3 * other + slot_of(other, axis);
-        const int next = axis_in(other, (slot_of(other, axis) + 1) % 3), normal = 3 - axis - next;
-        face_[3 * v + slot] = 2 * normal + (v >> normal & 1);
+      for (int d = 0; d < 3; ++d) {
+        double at = brick.centre[d];
+        for (int k = 0; k < 3; ++k) at += (v >> k & 1 ? 0.5 : -0.5) * brick.edges(d, k);
+        at_[v][d] = at;
       }
     }
+    std::copy(of_brick.twin.begin(), of_brick.twin.end(), twin_);
+    std::copy(of_brick.face.begin(), of_brick.face.end(), face_);
   }
 
   /// Keeps where side * x_axis <= 1/2; the cut becomes `face`. Returns whether anything is left.
@@ -52,26 +74,26 @@ class Polyhedron {
     if (!any_in) return false;
     for (int v = 0; v < before; ++v) {
       if (!kept_[v] || depth[v] < 0) continue;
-      for (int h = 3 * v; h < 3 * v + 3; ++h) {
-        const int back = twin_[h], w = back / 3;
+      for (int h = 4 * v; h < 4 * v + 3; ++h) {
+        const int back = twin_[h], w = back / 4;
         if (depth[w] >= 0) continue;
         const int n = corners_++;
         MPM_ASSERT(n < most_corners);
         const double part = depth[v] / (depth[v] - depth[w]);
         for (int d = 0; d < 3; ++d) at_[n][d] = at_[v][d] + part * (at_[w][d] - at_[v][d]);
         kept_[n] = true;
-        face_[3 * n] = face_[back];
-        join(h, 3 * n);
+        face_[4 * n] = face_[back];
+        join(h, 4 * n);
       }
     }
     for (int v = 0; v < before; ++v) kept_[v] = kept_[v] && depth[v] >= 0;
     // Along each face from where it enters to where it leaves: there the cut closes it.
     for (int n = before; n < corners_; ++n) {
-      int h = twin_[3 * n];
-      while (h / 3 < before) h = twin_[following(h)];
-      face_[h + 1] = face_[3 * n];
-      face_[3 * n + 2] = face;
-      join(h + 1, 3 * n + 2);
+      int h = twin_[4 * n];
+      while (h / 4 < before) h = twin_[following(h)];
+      face_[h + 1] = face_[4 * n];
+      face_[4 * n + 2] = face;
+      join(h + 1, 4 * n + 2);
     }
     return true;
   }
@@ -80,16 +102,10 @@ class Polyhedron {
   bool kept(int v) const { return kept_[v]; }
   Vec<3> at(int v) const { return {at_[v][0], at_[v][1], at_[v][2]}; }
   int face(int half_edge) const { return face_[half_edge]; }
-  int end(int half_edge) const { return twin_[half_edge] / 3; }
+  int end(int half_edge) const { return twin_[half_edge] / 4; }
 
  private:
-  static constexpr int axis_in(int v, int slot)
-  {
-    const bool odd = ((v >> 2) ^ (v >> 1) ^ v) & 1;
-    return odd ? (3 - slot) % 3 : slot;
-  }
-  static constexpr int slot_of(int v, int axis) { return axis_in(v, axis); }
-  static int following(int h) { return h / 3 * 3 + (h + 1) % 3; }
+  static int following(int h) { return h % 4 == 2 ? h - 2 : h + 1; }
   void join(int one, int other)
   {
     twin_[one] = other;
@@ -99,8 +115,8 @@ class Polyhedron {
   int corners_;
   bool kept_[most_corners];
   double at_[most_corners][3];
-  int twin_[3 * most_corners];  ///< the other half of an edge
-  int face_[3 * most_corners];  ///< on the side of which it runs, counter-clockwise from outside
+  int twin_[4 * most_corners];  ///< the other half of an edge
+  int face_[4 * most_corners];  ///< on the side of which it runs, counter-clockwise from outside
 };
 
 /// Of a face, in the coordinates xi of its brick: area, with the sign of its side, and first
@@ -108,16 +124,17 @@ class Polyhedron {
 struct FaceSums {
   double area = 0, moments[2] = {0, 0};
 };
-using Faces = std::array<FaceSums, 6>;
+using Faces = FaceSums[6];
 
-/// The edge from p to q of a face across `axis`.
+/// Adds the edge from p to q of a face across `axis`.
 void add_edge(const double* p, const double* q, int axis, FaceSums& sums)
 {
-  const int u = (axis + 1) % 3, w = (axis + 2) % 3;
-  const double cross = p[u] * q[w] - p[w] * q[u];
-  sums.area += 0.5 * cross;
-  sums.moments[0] += (p[u] + q[u]) * cross / 6;
-  sums.moments[1] += (p[w] + q[w]) * cross / 6;
+  constexpr int next[] = {1, 2, 0}, last[] = {2, 0, 1};
+  const int u = next[axis], w = last[axis];
+  const double half = 0.5 * (p[u] * q[w] - p[w] * q[u]);
+  sums.area += half;
+  sums.moments[0] += (p[u] + q[u]) * (half / 3);
+  sums.moments[1] += (p[w] + q[w]) * (half / 3);
 }
 
 /// `cofactors`: of the edges, area vectors of the whole faces, m^2.
@@ -125,7 +142,7 @@ BrickOverlap::Slopes slopes_of(const Faces& faces, const Eigen::Matrix3d& cofact
 {
   BrickOverlap::Slopes slopes;
   for (int k = 0; k < 3; ++k) {
-    const FaceSums &lower = faces[std::size_t(2 * k)], &upper = faces[std::size_t(2 * k + 1)];
+    const FaceSums &lower = faces[2 * k], &upper = faces[2 * k + 1];
     Vec<3> moments;
     moments[k] = 0.5 * (upper.area - lower.area);
     for (int j = 0; j < 2; ++j) moments[(k + 1 + j) % 3] = upper.moments[j] + lower.moments[j];
@@ -143,13 +160,18 @@ Eigen::Matrix3d cofactors_of(const Eigen::Matrix3d& edges)
   return cofactors;
 }
 
+/// Of a brick: from its centre along each axis.
+Vec<3> half_extent(const Parallelepiped& brick)
+{
+  return 0.5 * brick.edges.cwiseAbs().rowwise().sum();
+}
+
 /// Whether a brick lies beyond a plane of the unit cube, or so little within that it counts for
 /// nothing: neighbours across an edge do, all over a lattice.
 bool is_beyond(const Parallelepiped& brick)
 {
   constexpr double least = 1e-10;
-  const Vec<3> half = 0.5 * brick.edges.cwiseAbs().rowwise().sum();
-  return ((brick.centre.cwiseAbs() - half).array() > 0.5 - least).any();
+  return ((brick.centre.cwiseAbs() - half_extent(brick)).array() > 0.5 - least).any();
 }
 
 }  // namespace
@@ -170,35 +192,36 @@ BrickOverlap overlap_of(const Parallelepiped& a, const Parallelepiped& b)
   if (is_beyond({-(back * a_in_b.centre), back})) return overlap;
 
   Polyhedron common(a_in_b);
+  const Vec<3> half = half_extent(a_in_b);
   for (int axis = 0; axis < 3; ++axis)
-    for (const int upper : {0, 1})
-      if (!common.cut(axis, upper ? 1.0 : -1.0, Polyhedron::faces_of_brick + 2 * axis + upper))
-        return overlap;
+    for (const int upper : {0, 1}) {
+      const double side = upper ? 1 : -1;
+      if (side * a_in_b.centre[axis] + half[axis] <= 0.5) continue;
+      if (!common.cut(axis, side, Polyhedron::faces_of_brick + 2 * axis + upper)) return overlap;
+    }
 
-  double in_a[Polyhedron::most_corners][3], in_b[Polyhedron::most_corners][3];
+  // Of either brick: places in its own coordinates, and its faces.
+  double places[2][Polyhedron::most_corners][3];
+  Faces faces[2];
   for (int v = 0; v < common.corners(); ++v) {
     if (!common.kept(v)) continue;
     const Vec<3> at = common.at(v), xi = back * (at - a_in_b.centre);
     for (int d = 0; d < 3; ++d) {
-      in_a[v][d] = xi[d];
-      in_b[v][d] = at[d];
+      places[0][v][d] = xi[d];
+      places[1][v][d] = at[d];
     }
   }
-  Faces of_a, of_b;
   for (int v = 0; v < common.corners(); ++v) {
     if (!common.kept(v)) continue;
-    for (int h = 3 * v; h < 3 * v + 3; ++h) {
-      const int face = common.face(h), end = common.end(h);
-      if (face < Polyhedron::faces_of_brick)
-        add_edge(in_a[v], in_a[end], face / 2, of_a[std::size_t(face)]);
-      else {
-        const int of_other = face - Polyhedron::faces_of_brick;
-        add_edge(in_b[v], in_b[end], of_other / 2, of_b[std::size_t(of_other)]);
-      }
+    for (int h = 4 * v; h < 4 * v + 3; ++h) {
+      const int face = common.face(h);
+      const bool of_b = face >= Polyhedron::faces_of_brick;
+      const int number = of_b ? face - Polyhedron::faces_of_brick : face;
+      add_edge(places[of_b][v], places[of_b][common.end(h)], number / 2, faces[of_b][number]);
     }
   }
-  overlap.a = slopes_of(of_a, a_faces);
-  overlap.b = slopes_of(of_b, b_faces);
+  overlap.a = slopes_of(faces[0], a_faces);
+  overlap.b = slopes_of(faces[1], b_faces);
   overlap.volume =
       (overlap.a.by_centre.dot(apart) + a.edges.cwiseProduct(overlap.a.by_edges).sum() +
        b.edges.cwiseProduct(overlap.b.by_edges).sum()) /

@@ -62,7 +62,7 @@ void OverlapContact<Dim>::find_overlaps()
   for (std::size_t entry = 0; entry < found_.size(); ++entry) {
     if (!(found_.overlap(entry) > 0)) continue;
     overlaps_[found_.pair(entry)] += found_.overlap(entry);
-    faces_[found_.pair(entry)] += found_.slopes(entry, 0).together().norm();
+    faces_[found_.pair(entry)] += found_.face(entry);
   }
 }
 
@@ -117,35 +117,42 @@ void OverlapContact<Dim>::list_touches()
 template <int Dim>
 void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touch> touches)
 {
-  const auto add_beside = [&](const Touch& touch, const auto& value_of) {
-    double sum = value_of(touch);
-    for (const Touch& beside : touches)
-      if (&beside != &touch && are_of_one_wall(beside.other, touch.other)) sum += value_of(beside);
+  const std::size_t count = touches.size();
+  parts_.resize(count);
+  beside_.resize(count * count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto pair = std::size_t(touches[k].pair);
+    parts_[k].share = OverlapShare(overlaps_[pair] / cell_volume_).value;
+    parts_[k].face = faces_[pair];
+    for (std::size_t j = 0; j < k; ++j)
+      beside_[k * count + j] = beside_[j * count + k] =
+          are_of_one_wall(touches[j].other, touches[k].other);
+  }
+  const auto add_beside = [&](std::size_t k, double Part::*value) {
+    double sum = parts_[k].*value;
+    for (std::size_t j = 0; j < count; ++j)
+      if (j != k && beside_[k * count + j]) sum += parts_[j].*value;
     return sum;
   };
-  const auto share = [this](const Touch& touch) { return share_of(touch); };
-  const auto face = [this](const Touch& touch) { return faces_[std::size_t(touch.pair)]; };
-  parts_.clear();
-  for (const Touch& touch : touches) {
-    const double together = add_beside(touch, share);
+  for (std::size_t k = 0; k < count; ++k) {
+    Part& part = parts_[k];
+    const double together = add_beside(k, &Part::share);
     const OverlapPotential potential(together);
-    parts_.push_back({potential.part, share(touch) * potential.slope});
-    energy_ += stiffness_[cell] * cell_volume_ * share(touch) * parts_.back().own;
+    part.own = potential.part;
+    part.change = part.share * potential.slope;
+    energy_ += stiffness_[cell] * cell_volume_ * part.share * part.own;
     if (!(together > 0)) continue;
     const auto grow = [&](std::vector<double>& largest, double now) {
-      largest[std::size_t(touch.side)] = std::max(largest[std::size_t(touch.side)], now);
+      double& of_side = largest[std::size_t(touches[k].side)];
+      of_side = std::max(of_side, now);
     };
     grow(stiffnesses_,
-         OverlapPotential::stiffness(together) * add_beside(touch, face) / cell_face_);
-    grow(parts_of_face_, share(touch) / together);
+         OverlapPotential::stiffness(together) * add_beside(k, &Part::face) / cell_face_);
+    grow(parts_of_face_, part.share / together);
   }
-  const auto change_of = [&](const Touch& touch) {
-    return parts_[std::size_t(&touch - touches.data())].change;
-  };
-  for (const Touch& touch : touches)
-    sides_[std::size_t(touch.side)] =
-        stiffness_[cell] *
-        (parts_[std::size_t(&touch - touches.data())].own + add_beside(touch, change_of));
+  for (std::size_t k = 0; k < count; ++k)
+    sides_[std::size_t(touches[k].side)] =
+        stiffness_[cell] * (parts_[k].own + add_beside(k, &Part::change));
 }
 
 /// Whether cells are so near in the lattice that what a third one presses them with adds up.

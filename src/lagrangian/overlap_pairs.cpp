@@ -71,7 +71,7 @@ double OverlapContact<Dim>::largest_way(const MeshNodes<Dim>& nodes) const
   double squared = 0;
   for (std::size_t n = 0; n < places_then_.size(); ++n)
     squared = std::max(squared, (nodes.position(LocalIndex(n)) - places_then_[n]).squaredNorm());
-  return std::sqrt(squared);
+  return Overlaps::reach * std::sqrt(squared);
 }
 
 /// Whether all axes along which an image lies elsewhere are periodic.

@@ -64,11 +64,14 @@ OverlapSlopes<3> CellOverlaps<3>::slopes(std::size_t entry, int side) const
 {
   const BrickOverlap& overlap = near_[entry].overlap;
   const BrickOverlap::Slopes& of_cell = side == 0 ? overlap.a : overlap.b;
-  OverlapSlopes<3> slopes;
-  for (std::size_t c = 0; c < 8; ++c) {
-    slopes.by[c] = of_cell.by_centre / 8;
-    for (int k = 0; k < 3; ++k) slopes.by[c] += sign_of(c, k) / 4 * of_cell.by_edges.col(k);
-    slopes.corner[c] = c;
+  OverlapSlopes<3> slopes{.by = {of_cell.by_centre / 8}, .corner = order};
+  // From one corner to two, four and eight.
+  for (std::size_t k = 0, known = 1; k < 3; ++k, known *= 2) {
+    const Vec<3> half = 0.25 * of_cell.by_edges.col(Eigen::Index(k));
+    for (std::size_t c = 0; c < known; ++c) {
+      slopes.by[c + known] = slopes.by[c] + half;
+      slopes.by[c] -= half;
+    }
   }
   return slopes;
 }

@@ -124,11 +124,12 @@ output: {{history_lines: 50, snapshots: 0}}
 
     def test_bricks_give_the_curve_of_the_plane(self):
         """Beyond yield a brick that bends takes some curvature until it is held along its depth by
-        half of its stress; in the plane it is so at once."""
+        half of its stress; in the plane it is so at once. And contact sees the middles of bricks,
+        in the plane their corners."""
         formulation = "formulation: total_lagrangian"
         self.have_the_same_curves(
             self.run_crop("plane_cells", "", "[48, 32]", formulation),
-            self.run_crop("bricks", "depth: 11.2 um", "[48, 32, 4]", formulation), within=0.02)
+            self.run_crop("bricks", "depth: 11.2 um", "[48, 32, 4]", formulation), within=0.03)
 
 
 if __name__ == "__main__":

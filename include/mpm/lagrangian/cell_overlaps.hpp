@@ -63,6 +63,7 @@ class CellOverlaps<2> {
  public:
   static constexpr std::array<std::size_t, 4> order{0, 1, 3, 2};  ///< counter-clockwise
   static constexpr int values = 8;                                ///< x and y of the corners, m
+  static constexpr double reach = 1;  ///< way of a cell's corners over that of its nodes, at most
 
   static void describe(const CornerPlaces<2>& corners, double* values)
   {
@@ -88,6 +89,8 @@ class CellOverlaps<2> {
   std::size_t size() const { return near_.size(); }
   std::size_t pair(std::size_t entry) const { return near_[entry].cells.pair; }
   double overlap(std::size_t entry) const { return *values_of(entry); }  ///< m^2
+  /// By the way of a cell, m: the length of the face that they share.
+  double face(std::size_t entry) const { return slopes(entry, 0).together().norm(); }
   /// `side`: 0, of the first cell, or 1.
   OverlapSlopes<2> slopes(std::size_t entry, int side) const;
   std::size_t bytes() const
@@ -118,6 +121,8 @@ class CellOverlaps<3> {
  public:
   static constexpr std::array<std::size_t, 8> order{0, 1, 2, 3, 4, 5, 6, 7};
   static constexpr int values = 12;  ///< centre and edges, m
+  /// A corner of the affine part moves with 1/2 of its own node, 1/4 of three, -1/4 of the last.
+  static constexpr double reach = 1.5;
 
   static void describe(const CornerPlaces<3>& corners, double* values);
   static void shift(const Vec<3>& way, double* values);
@@ -127,7 +132,8 @@ class CellOverlaps<3> {
   void find(std::span<const MeetingCells> cells);
   std::size_t size() const { return near_.size(); }
   std::size_t pair(std::size_t entry) const { return near_[entry].pair; }
-  double overlap(std::size_t entry) const { return near_[entry].overlap.volume; }  ///< m^3
+  double overlap(std::size_t entry) const { return near_[entry].overlap.volume; }           ///< m^3
+  double face(std::size_t entry) const { return near_[entry].overlap.a.by_centre.norm(); }  ///< m^2
   OverlapSlopes<3> slopes(std::size_t entry, int side) const;
   std::size_t bytes() const { return near_.capacity() * sizeof(Near); }
 

@@ -112,14 +112,11 @@ class OverlapContact final : public SelfContact<Dim> {
   struct Touch {
     LocalIndex other, pair, side;  ///< side: where in sides_
   };
-  /// What a touch stores, and by how much its neighbours' answers grow with it.
+  /// Of a touch: what its overlap counts as, its face, m^2 or m, what it stores, and by how much
+  /// its neighbours' answers grow with it.
   struct Part {
-    double own, change;
+    double share, face, own, change;
   };
-  double share_of(const Touch& touch) const
-  {
-    return OverlapShare(overlaps_[std::size_t(touch.pair)] / cell_volume_).value;
-  }
   void answer_overlaps(std::size_t cell, std::span<const Touch> touches);
   /// What presses in a pair, of both its sides, Pa, in the plane N/m.
   double pressure(std::size_t pair) const
@@ -160,6 +157,7 @@ class OverlapContact final : public SelfContact<Dim> {
   std::vector<double> sides_;
   std::vector<LocalIndex> second_side_;
   std::vector<Part> parts_;     ///< of the touches of one cell, for a moment
+  std::vector<char> beside_;    ///< [touch, touch]: whether they are of one wall
   std::vector<Touch> touches_;  ///< of cell c from first_touch_[c] on
   std::vector<LocalIndex> first_touch_;
   std::vector<double> motion_;         ///< of the cells' corners, with friction

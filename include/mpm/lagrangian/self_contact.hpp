@@ -18,7 +18,7 @@ class SelfContact {
   /// Finds all pairs that can meet before a node has moved by half of `skin`, m. Collective.
   virtual void find_pairs(const MeshNodes<Dim>& nodes, double skin) = 0;
   virtual double skin() const = 0;
-  /// The largest way of a node of this rank's since then, m.
+  /// The largest way of a corner of this rank's cells since then, m.
   virtual double largest_way(const MeshNodes<Dim>& nodes) const = 0;
   /// Overlaps at the present places. Every rank calls it.
   virtual void measure(const MeshNodes<Dim>& nodes) = 0;
