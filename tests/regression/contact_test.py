@@ -50,6 +50,25 @@ class Contact(ProgramTest):
         self.assertLess(max(abs(e) for e in history["energy_error"][-50:]), 0.001)
         self.assertLess(max(history["momentum_error"]), 1e-13)
 
+    def test_a_plate_of_one_cell_squeezed_from_both_sides_stays_and_carries_the_stress(self):
+        """Two faces, each as deep as 4 C (T + T^3 / 0.03^2) takes, and half of the onset."""
+        history = History(self.results("squeezed_plate", ranks=2))
+        for before, after, stress in zip(history["strain"], history["strain"][1:],
+                                         history["stress"][1:]):
+            strain = 0.5 * (before + after)
+            if strain < 0.02:
+                continue
+            depth = 0.0
+            for _ in range(50):
+                depth = stress / (4 * CONFINED) / (1 + (depth / 0.03) ** 2)
+            solid = strain - 2 * (depth + 0.0025) / 40
+            exact = -CONFINED * math.log(1 - solid) / (1 - solid)
+            self.assertAlmostEqual(stress / exact, 1, delta=0.01)
+        self.assertLess(max(abs(e) for e in history["energy_error"][10:]), 1e-4)
+        self.assertLess(max(history["momentum_error"]), 1e-11)
+        # Two faces of 0.5 mm, overlapped by less than 6 % of a location of 25 um.
+        self.assertLess(max(history["overlapped_area"]), 0.06 * 25e-6 * 0.5e-3 * 2)
+
     def slide(self, friction, bound, *settings):
         history = History(self.results("incline", f"contact[0].friction={friction}", *settings,
                                        ranks=2, label=f"friction_{friction}_{len(settings)}"))
