@@ -129,6 +129,7 @@ Section::Section(const scene::Scene& scene, GrayImage image, const IndexVec<2>& 
   if (by_threshold)
     figures_.location_threshold =
         micrograph.wall == scene::Wall::bright ? bands_[0].from : bands_[0].to;
+  pixel_bands_ = of_pixels;
   figures_.density = count_in(image_.gray, of_pixels, {}) / double(image_.gray.size());
 
   const double filled = count_in(means, bands_, share);
@@ -159,6 +160,28 @@ std::vector<std::int8_t> Section::materials(const IndexBox<2>& part) const
   std::vector<std::int8_t> materials = materials_of(location_means(image_, count_, part), bands_);
   leave_out_removed(part, materials);
   return materials;
+}
+
+std::vector<double> Section::wall_shares() const
+{
+  double inside = 0, outside = 0, count = 0;
+  std::vector<double> shares;
+  shares.reserve(image_.gray.size());
+  for (const double gray : image_.gray) {
+    const bool is_wall = material_of(gray, pixel_bands_) != Lattice<2>::empty;
+    shares.push_back(is_wall);
+    (is_wall ? inside : outside) += gray;
+    count += is_wall;
+  }
+  if (figures_.threshold == 0 || count == 0 || count == double(shares.size())) return shares;
+  inside = inside / count - figures_.threshold;
+  outside = outside / (double(shares.size()) - count) - figures_.threshold;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const double gray = image_.gray[k] - figures_.threshold;
+    const double mean = shares[k] > 0 ? inside : -outside;
+    if (mean != 0) shares[k] = std::clamp(0.5 + 0.5 * gray / mean, 0.0, 1.0);
+  }
+  return shares;
 }
 
 void Section::leave_out_removed(const IndexBox<2>& part, std::vector<std::int8_t>& materials) const

@@ -16,7 +16,8 @@ std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
         decomposition, typename TotalLagrangian<Dim>::Setup{
                            std::move(model.bodies), std::move(model.slots), layout.location_size,
                            scene.numerics.thickness, contact_stiffness(scene.numerics),
-                           scene.numerics.friction, mass_scaling_of(scene)});
+                           scene.numerics.friction, mass_scaling_of(scene),
+                           std::move(model.offsets)});
   typename UpdatedLagrangian<Dim>::Setup setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
   setup.order = scene.numerics.update_order;

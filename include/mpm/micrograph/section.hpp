@@ -38,6 +38,11 @@ class Section {
   const PictureFigures& figures() const { return figures_; }
   /// Materials of the locations of a part, x fastest.
   std::vector<std::int8_t> materials(const IndexBox<2>& part) const;
+  /// How much of each pixel is wall, top row first. With bands all or nothing; with a threshold
+  /// the gray between the mean of what is no wall (0), the threshold (a half) and the mean of what
+  /// is wall (1): pixels at an edge are partly wall.
+  std::vector<double> wall_shares() const;
+  const GrayImage& image() const { return image_; }
 
  private:
   /// `rows`: this part's slab, `filled`: locations of all parts. Collective.
@@ -47,6 +52,7 @@ class Section {
 
   GrayImage image_;
   IndexVec<2> count_;
+  std::vector<Band> pixel_bands_;  ///< of the pixels' grays
   std::vector<Band> bands_;   ///< of the locations' mean grays
   std::vector<Run> removed_;  ///< in the order of their rows
   PictureFigures figures_;
