@@ -34,7 +34,8 @@ LocationCells<Dim>::LocationCells(const Body<Dim>& body, std::span<const CellNod
       deformation_(body.particles.motion().find("deformation")),
       rest_bending_(body.particles.motion().find("rest_bending")),
       corner_modulus_(4 * body.density * body.law->wave_speed() * body.law->wave_speed()),
-      least_corners_(std::size_t(body.particles.blocks()) * lane_count, least_corner)
+      least_corners_(std::size_t(body.particles.blocks()) * lane_count, least_corner),
+      rest_shares_(std::size_t(body.particles.blocks()) * lane_count, 1.0)
 {
   const LocalIndex cells = body.particles.size();
   corner_nodes_.resize(std::size_t(body.particles.blocks()) * corners_of_cell * lane_count);
@@ -83,7 +84,9 @@ void LocationCells<2>::take_rest(Body<2>& body, const MeshNodes<2>& nodes, doubl
     const double location = thickness / frame_.inverse_area;
     cells.state()(0, p) = location * rest.jacobian()[lane];
     motion(mass, p) = body.density * cells.state()(0, p);
-    least_corners_[std::size_t(p)] = least_corner * rest.narrowest_corner(frame_)[lane];
+    const double narrowest = rest.narrowest_corner(frame_)[lane];
+    least_corners_[std::size_t(p)] = least_corner * narrowest;
+    rest_shares_[std::size_t(p)] = narrowest / rest.jacobian()[lane];
     for (int d = 0; d < 2; ++d) {
       const Lanes(&x)[corners_of_cell] = at.along[d];
       motion(position + d, p) = 0.25 * ((x[0][lane] + x[1][lane]) + (x[2][lane] + x[3][lane]));
@@ -282,7 +285,10 @@ void LocationCells<Dim>::find_least_stretches(const MeshNodes<Dim>& nodes,
   for (std::size_t first = 0; first < squared.size(); first += lane_count) {
     const CellCorners<Dim> at = corners(nodes, LocalIndex(first / lane_count));
     const CellDeformation<Dim> now(at, frame_);
-    const Lanes middle = least_stretch_squared(now), corner = bent_share(now, at, frame_);
+    // What a cell is bent by at rest does not make its waves faster, other than its least stretch.
+    const Lanes middle = least_stretch_squared(now),
+                corner = stdx::min(bent_share(now, at, frame_) / load(rest_shares_.data() + first),
+                                   Lanes(1.0));
     store(middle * corner * stdx::abs(corner), squared.data() + first);
   }
 }

@@ -11,9 +11,9 @@ namespace {
 
 /// All in locations. A corner looks for the surface so far away, and ends at most so far from where
 /// it was along an axis.
-constexpr double search = 0.75, most_moved = 0.45;
+constexpr double near_search = 0.75, search = 1, most_moved = 0.45;
 /// What a cell's edges span at a corner, at least, of that of a square.
-constexpr double least_span = 0.4;
+constexpr double least_span = 0.5;
 constexpr int relaxations = 4, partings = 8, retreats = 12;
 constexpr double retreat = 0.8;
 static_assert(fitting_reach > 1 + relaxations + partings + retreats + 1);
@@ -114,21 +114,10 @@ class Fitter {
   /// away from it, at which wall and void meet.
   Vec<2> to_surface(const IndexVec<2>& corner, const std::array<bool, 2>& held) const
   {
-    constexpr int samples = 12;  // across the circle
     const Vec<2> centre = corner.cast<double>();
-    Vec<2> direction = Vec<2>::Zero();
-    for (int j = 0; j < samples; ++j)
-      for (int i = 0; i < samples; ++i) {
-        const Vec<2> d = search * Vec<2>((2 * i + 1.0) / samples - 1, (2 * j + 1.0) / samples - 1);
-        if (d.squaredNorm() < search * search && is_wall(centre + d)) direction += d;
-      }
-    for (int d = 0; d < 2; ++d)
-      if (held[std::size_t(d)]) direction[d] = 0;
-    // A circle cut in half has 2/3 radius^3 of it: so little of that is no direction.
-    constexpr double least = 0.02 * samples * samples * search;
-    const double length = direction.norm();
-    if (length < least) return Vec<2>::Zero();
-    direction /= length;
+    Vec<2> direction = towards_wall(centre, near_search, held);
+    if (direction.isZero()) direction = towards_wall(centre, search, held);
+    if (direction.isZero()) return direction;
     const bool within = is_wall(centre);
     if (within) direction = -direction;
     constexpr int steps = 12, halvings = 30;
@@ -146,6 +135,25 @@ class Fitter {
       (is_wall(centre + middle * direction) == within ? near : far) = middle;
     }
     return 0.5 * (near + far) * direction;
+  }
+
+  /// The first moment of the wall in a circle, as a unit vector; 0 where it is small.
+  Vec<2> towards_wall(const Vec<2>& centre, double radius, const std::array<bool, 2>& held) const
+  {
+    constexpr int samples = 12;  // across the circle
+    Vec<2> moment = Vec<2>::Zero();
+    for (int j = 0; j < samples; ++j)
+      for (int i = 0; i < samples; ++i) {
+        const Vec<2> d((2 * i + 1.0) / samples - 1, (2 * j + 1.0) / samples - 1);
+        if (d.squaredNorm() < 1 && is_wall(centre + radius * d)) moment += d;
+      }
+    for (int d = 0; d < 2; ++d)
+      if (held[std::size_t(d)]) moment[d] = 0;
+    // A circle that is half wall has a sixth of a sample each.
+    constexpr double least = 0.02 * samples * samples;
+    const double length = moment.norm();
+    if (length < least) return Vec<2>::Zero();
+    return moment / length;
   }
 
   static const std::array<IndexVec<2>, 4>& steps()

@@ -162,26 +162,16 @@ std::vector<std::int8_t> Section::materials(const IndexBox<2>& part) const
   return materials;
 }
 
-std::vector<double> Section::wall_shares() const
+std::vector<double> Section::wall_levels() const
 {
-  double inside = 0, outside = 0, count = 0;
-  std::vector<double> shares;
-  shares.reserve(image_.gray.size());
-  for (const double gray : image_.gray) {
-    const bool is_wall = material_of(gray, pixel_bands_) != Lattice<2>::empty;
-    shares.push_back(is_wall);
-    (is_wall ? inside : outside) += gray;
-    count += is_wall;
-  }
-  if (figures_.threshold == 0 || count == 0 || count == double(shares.size())) return shares;
-  inside = inside / count - figures_.threshold;
-  outside = outside / (double(shares.size()) - count) - figures_.threshold;
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    const double gray = image_.gray[k] - figures_.threshold;
-    const double mean = shares[k] > 0 ? inside : -outside;
-    if (mean != 0) shares[k] = std::clamp(0.5 + 0.5 * gray / mean, 0.0, 1.0);
-  }
-  return shares;
+  std::vector<double> levels = image_.gray;
+  const bool by_threshold = figures_.threshold != 0;
+  for (double& level : levels)
+    if (!by_threshold)
+      level = material_of(level, pixel_bands_) != Lattice<2>::empty;
+    else if (pixel_bands_[0].to == figures_.threshold)
+      level = -level;
+  return levels;
 }
 
 void Section::leave_out_removed(const IndexBox<2>& part, std::vector<std::int8_t>& materials) const

@@ -85,7 +85,7 @@ int folded(int pixel, int count, bool periodic)
 template <int Dim>
 class PicturePlaces final : public WallPlaces<Dim> {
  public:
-  PicturePlaces(const WallShares& pixels, const IndexVec<Dim>& count,
+  PicturePlaces(const WallLevels& pixels, const IndexVec<Dim>& count,
                 const std::array<bool, 2>& periodic)
   {
     const std::array<int, 2> size{pixels.width, pixels.height};
@@ -106,23 +106,38 @@ class PicturePlaces final : public WallPlaces<Dim> {
         sum(column + 1, row + 1) = sum(column + 1, row) + of_row;
       }
     }
+    // At four places of each pixel: in the middles alone there would be no blur.
+    std::vector<double> means;
+    means.reserve(4 * pixels.level.size());
+    for (int row = 0; row < 2 * size[1]; ++row)
+      for (int column = 0; column < 2 * size[0]; ++column)
+        means.push_back(
+            in_box(padding_[0] + 0.5 * column + 0.25, padding_[1] + 0.5 * row + 0.25));
+    const auto below = std::llround((1 - pixels.density) * double(means.size()));
+    const auto limit = means.begin() + std::min<std::ptrdiff_t>(below, std::ssize(means) - 1);
+    std::nth_element(means.begin(), limit, means.end());
+    level_ = *limit;
   }
 
   bool contains(const Vec<Dim>& place) const override
   {
-    const double x = place[0] * pixels_[0] + padding_[0], y = place[1] * pixels_[1] + padding_[1];
-    const double inside = (below(x + half_[0], y + half_[1]) - below(x - half_[0], y + half_[1])) -
-                          (below(x + half_[0], y - half_[1]) - below(x - half_[0], y - half_[1]));
-    return inside >= 2 * half_[0] * half_[1];
+    return in_box(place[0] * pixels_[0] + padding_[0], place[1] * pixels_[1] + padding_[1]) >=
+           level_;
   }
 
  private:
   static constexpr double box = 0.75;         // locations
-  static constexpr double least_pixels = 1.5;
+  static constexpr double least_pixels = 1;
 
   double& sum(int column, int row)
   {
     return sums_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
+  }
+  /// Sum of the levels over the box around a point, pixels of what is padded.
+  double in_box(double x, double y) const
+  {
+    return (below(x + half_[0], y + half_[1]) - below(x - half_[0], y + half_[1])) -
+           (below(x + half_[0], y - half_[1]) - below(x - half_[0], y - half_[1]));
   }
   /// Bilinear between the corners of pixels, which is exact.
   double below(double x, double y) const
@@ -138,6 +153,7 @@ class PicturePlaces final : public WallPlaces<Dim> {
   std::array<int, 2> padding_{};    // pixels
   int columns_ = 0;
   std::vector<double> sums_;
+  double level_ = 0;  // of a box
 };
 
 }  // namespace
@@ -151,7 +167,7 @@ std::unique_ptr<WallPlaces<Dim>> places_of_shapes(std::span<const scene::Shape> 
 }
 
 template <int Dim>
-std::unique_ptr<WallPlaces<Dim>> places_of_picture(const WallShares& pixels,
+std::unique_ptr<WallPlaces<Dim>> places_of_picture(const WallLevels& pixels,
                                                    const IndexVec<Dim>& count,
                                                    const std::array<bool, 2>& periodic)
 {
@@ -164,9 +180,9 @@ template std::unique_ptr<WallPlaces<2>> places_of_shapes(std::span<const scene::
 template std::unique_ptr<WallPlaces<3>> places_of_shapes(std::span<const scene::Shape>,
                                                          std::span<const std::int8_t>,
                                                          const Vec<3>&, const IndexVec<3>&);
-template std::unique_ptr<WallPlaces<2>> places_of_picture(const WallShares&, const IndexVec<2>&,
+template std::unique_ptr<WallPlaces<2>> places_of_picture(const WallLevels&, const IndexVec<2>&,
                                                           const std::array<bool, 2>&);
-template std::unique_ptr<WallPlaces<3>> places_of_picture(const WallShares&, const IndexVec<3>&,
+template std::unique_ptr<WallPlaces<3>> places_of_picture(const WallLevels&, const IndexVec<3>&,
                                                           const std::array<bool, 2>&);
 
 }  // namespace mpm::micrograph

@@ -56,7 +56,7 @@ class LocationCells {
   void fill_motion(Body<Dim>& body, const MeshNodes<Dim>& nodes,
                    const NodeFields<Dim>& fields) const;
   /// Squares of the least stretch of every cell, [blocks * lanes]: in the middle, and less where a
-  /// corner is narrower.
+  /// corner has become narrower than at rest.
   void find_least_stretches(const MeshNodes<Dim>& nodes, LaneVector<double>& squared) const;
   /// m/s, of the fastest wave across a cell, as if it had the size that it has at rest; stretches
   /// below `floor` count as that.
@@ -67,7 +67,7 @@ class LocationCells {
   const std::vector<LocalIndex>& corner_nodes() const { return corner_nodes_; }
   std::size_t bytes() const
   {
-    return corner_nodes_.size() * sizeof(LocalIndex) + least_corners_.size() * sizeof(double);
+    return corner_nodes_.size() * sizeof(LocalIndex) + 2 * least_corners_.size() * sizeof(double);
   }
 
  private:
@@ -101,6 +101,8 @@ class LocationCells {
   double corner_modulus_;  ///< Pa
   /// [blocks * lanes], of what a location's corner spans: corners below are held open.
   LaneVector<double> least_corners_;
+  /// [blocks * lanes], of what its middle would span: the narrowest corner of a cell at rest.
+  LaneVector<double> rest_shares_;
   std::vector<LocalIndex> corner_nodes_;
 };
 

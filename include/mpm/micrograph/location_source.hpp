@@ -56,8 +56,9 @@ class PictureSource : public LocationSource<Dim> {
                                                const std::array<bool, 2>& periodic) const override
   {
     const GrayImage& image = section_.image();
-    return places_of_picture<Dim>({image.width, image.height, section_.wall_shares()}, count,
-                                  periodic);
+    return places_of_picture<Dim>(
+        {image.width, image.height, section_.wall_levels(), section_.figures().density}, count,
+        periodic);
   }
 
  private:

@@ -38,10 +38,9 @@ class Section {
   const PictureFigures& figures() const { return figures_; }
   /// Materials of the locations of a part, x fastest.
   std::vector<std::int8_t> materials(const IndexBox<2>& part) const;
-  /// How much of each pixel is wall, top row first. With bands all or nothing; with a threshold
-  /// the gray between the mean of what is no wall (0), the threshold (a half) and the mean of what
-  /// is wall (1): pixels at an edge are partly wall.
-  std::vector<double> wall_shares() const;
+  /// Of each pixel, top row first, the higher the more it is wall: its gray, minus that where walls
+  /// are dark, or with bands whether it lies in one.
+  std::vector<double> wall_levels() const;
   const GrayImage& image() const { return image_; }
 
  private:

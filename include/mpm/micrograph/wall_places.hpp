@@ -25,19 +25,21 @@ std::unique_ptr<WallPlaces<Dim>> places_of_shapes(std::span<const scene::Shape> 
                                                   std::span<const std::int8_t> materials,
                                                   const Vec<Dim>& size, const IndexVec<Dim>& count);
 
-/// How much of each pixel is wall.
-struct WallShares {
+/// How much each pixel is wall, in any measure.
+struct WallLevels {
   int width, height;
-  std::vector<double> share;  ///< 0 to 1, top row first
+  std::vector<double> level;  ///< top row first
+  double density;             ///< share of the pixels that are wall
 
-  double operator()(int column, int row) const { return share[std::size_t(row) * width + column]; }
+  double operator()(int column, int row) const { return level[std::size_t(row) * width + column]; }
 };
 
-/// Places around which half of a box of three quarters of a location, or of one and a half pixels
-/// where these are larger, is wall. What lies beyond the picture is its mirror image, or along
-/// periodic axes the picture again.
+/// By the mean level of a box around a place, three quarters of a location wide, or a pixel where
+/// that is larger. Blur moves what is thin or bent: wall is where the mean is above the quantile at
+/// which the picture's density is met, as it is for locations. What lies beyond the picture is its
+/// mirror image, or along periodic axes the picture again.
 template <int Dim>
-std::unique_ptr<WallPlaces<Dim>> places_of_picture(const WallShares& pixels,
+std::unique_ptr<WallPlaces<Dim>> places_of_picture(const WallLevels& pixels,
                                                    const IndexVec<Dim>& count,
                                                    const std::array<bool, 2>& periodic);
 
