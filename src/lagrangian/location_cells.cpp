@@ -163,8 +163,8 @@ template <int Dim>
   for (int j = 0; j < Dim * Dim; ++j) store(now.f[j], f + j * lane_count);
   now.keep(chunk.kept_of(k));
   bending_.put_trial(now.bending, rest_of(motion), volume, chunk.bending_of(k));
-  chunk.narrow[k] = stdx::any_of(now.narrowest_corner(frame_) <
-                                  column(least_corners_.data(), block));
+  chunk.narrow[k] =
+      stdx::any_of(now.narrowest_corner(frame_) < column(least_corners_.data(), block));
   return now.jacobian();
 }
 

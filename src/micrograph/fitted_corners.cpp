@@ -43,9 +43,9 @@ class Fitter {
  private:
   struct Node {
     Kind kind = Kind::stays;
-    std::array<bool, 2> held{};    ///< at the border across an axis
-    unsigned cells = 0;            ///< bit c: it is corner c of one
-    std::array<bool, 4> along{};   ///< the surface goes on to the next one: -x, +x, -y, +y
+    std::array<bool, 2> held{};   ///< at the border across an axis
+    unsigned cells = 0;           ///< bit c: it is corner c of one
+    std::array<bool, 4> along{};  ///< the surface goes on to the next one: -x, +x, -y, +y
     Vec<2> to_surface = Vec<2>::Zero();
   };
 
@@ -169,8 +169,8 @@ class Fitter {
     for_each_index(IndexBox<2>{box_.lower + one, box_.upper - one}, visit);
   }
 
-  /// Of what the corners of a surface have before them half is that of their neighbours: stairs move
-  /// as a whole. What is left of it parts them.
+  /// Of what the corners of a surface have before them half is that of their neighbours: stairs
+  /// move as a whole. What is left of it parts them.
   void smooth()
   {
     for_each_inner([&](const IndexVec<2>& at) {
@@ -189,8 +189,7 @@ class Fitter {
   static Vec<2> bounded(Vec<2> offset, const Node& node)
   {
     for (int d = 0; d < 2; ++d)
-      offset[d] =
-          node.held[std::size_t(d)] ? 0.0 : std::clamp(offset[d], -most_moved, most_moved);
+      offset[d] = node.held[std::size_t(d)] ? 0.0 : std::clamp(offset[d], -most_moved, most_moved);
     return offset;
   }
 

@@ -111,8 +111,7 @@ class PicturePlaces final : public WallPlaces<Dim> {
     means.reserve(4 * pixels.level.size());
     for (int row = 0; row < 2 * size[1]; ++row)
       for (int column = 0; column < 2 * size[0]; ++column)
-        means.push_back(
-            in_box(padding_[0] + 0.5 * column + 0.25, padding_[1] + 0.5 * row + 0.25));
+        means.push_back(in_box(padding_[0] + 0.5 * column + 0.25, padding_[1] + 0.5 * row + 0.25));
     const auto below = std::llround((1 - pixels.density) * double(means.size()));
     const auto limit = means.begin() + std::min<std::ptrdiff_t>(below, std::ssize(means) - 1);
     std::nth_element(means.begin(), limit, means.end());
@@ -126,7 +125,7 @@ class PicturePlaces final : public WallPlaces<Dim> {
   }
 
  private:
-  static constexpr double box = 0.75;         // locations
+  static constexpr double box = 0.75;  // locations
   static constexpr double least_pixels = 1;
 
   double& sum(int column, int row)

@@ -4,17 +4,15 @@
 namespace mpm {
 
 template <>
-CornerOffsets<2> surface_offsets(const scene::Scene& scene,
-                                 const micrograph::Specimen<2>& specimen, const Layout<2>& layout,
-                                 const IndexBox<2>& part)
+CornerOffsets<2> surface_offsets(const scene::Scene& scene, const micrograph::Specimen<2>& specimen,
+                                 const Layout<2>& layout, const IndexBox<2>& part)
 {
   if (scene.numerics.surface == scene::Surface::stairs) return {};
   IndexBox<2> seen = part;
   for (int d = 0; d < 2; ++d) {
     const bool periodic = layout.geometry.periodic[d];
     seen.lower[d] = periodic ? 0 : part.lower[d] - micrograph::fitting_reach - 1;
-    seen.upper[d] =
-        periodic ? specimen.count()[d] : part.upper[d] + micrograph::fitting_reach + 1;
+    seen.upper[d] = periodic ? specimen.count()[d] : part.upper[d] + micrograph::fitting_reach + 1;
   }
   const micrograph::Lattice<2> lattice = specimen.lattice(intersection(seen, specimen.whole()));
   const std::array<bool, 2> periodic{layout.geometry.periodic[0], layout.geometry.periodic[1]};

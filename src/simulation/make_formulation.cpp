@@ -13,11 +13,11 @@ std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
 {
   if (is_total_lagrangian(scene.numerics))
     return std::make_unique<TotalLagrangian<Dim>>(
-        decomposition, typename TotalLagrangian<Dim>::Setup{
-                           std::move(model.bodies), std::move(model.slots), layout.location_size,
-                           scene.numerics.thickness, contact_stiffness(scene.numerics),
-                           scene.numerics.friction, mass_scaling_of(scene),
-                           std::move(model.offsets)});
+        decomposition,
+        typename TotalLagrangian<Dim>::Setup{
+            std::move(model.bodies), std::move(model.slots), layout.location_size,
+            scene.numerics.thickness, contact_stiffness(scene.numerics), scene.numerics.friction,
+            mass_scaling_of(scene), std::move(model.offsets)});
   typename UpdatedLagrangian<Dim>::Setup setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
   setup.order = scene.numerics.update_order;

@@ -310,8 +310,8 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
     });
     model.bodies.back().particles.seal();
   }
-  model.offsets = surface_offsets(scene, specimen, layout,
-                                  nearby(specimen.whole(), layout, decomposition));
+  model.offsets =
+      surface_offsets(scene, specimen, layout, nearby(specimen.whole(), layout, decomposition));
   add_contact(scene, layout, model);
   if (std::holds_alternative<scene::Loading>(scene.motion))
     add_apparatus(scene, specimen, layout, model);

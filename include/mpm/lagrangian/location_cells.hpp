@@ -34,7 +34,7 @@ class LocationCells {
   LocationCells(const Body<Dim>& body, std::span<const CellNodes> nodes, const Vec<Dim>& size);
 
   /// `fitted`: cells may be of any shape at rest.
-  static std::vector<Column> columns(const Law<Dim>& law, bool fitted);
+  static std::vector<Column> columns(const Law<Dim>& law, bool fitted = false);
   /// A cell at rest; nothing where particles are no cells.
   static void initialise(ColumnGroup& motion, LocalIndex cell);
   /// Cells of any shape are at rest with their corners where they are: volumes, masses, places and

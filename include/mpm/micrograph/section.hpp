@@ -52,8 +52,8 @@ class Section {
   GrayImage image_;
   IndexVec<2> count_;
   std::vector<Band> pixel_bands_;  ///< of the pixels' grays
-  std::vector<Band> bands_;   ///< of the locations' mean grays
-  std::vector<Run> removed_;  ///< in the order of their rows
+  std::vector<Band> bands_;        ///< of the locations' mean grays
+  std::vector<Run> removed_;       ///< in the order of their rows
   PictureFigures figures_;
 };
 

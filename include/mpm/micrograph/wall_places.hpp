@@ -18,8 +18,8 @@ class WallPlaces {
   virtual bool contains(const Vec<Dim>& place) const = 0;
 };
 
-/// What shapes contain. `materials`: of each shape, Lattice::empty for void; `count` locations cover
-/// the specimen's `size`, m.
+/// What shapes contain. `materials`: of each shape, Lattice::empty for void; `count` locations
+/// cover the specimen's `size`, m.
 template <int Dim>
 std::unique_ptr<WallPlaces<Dim>> places_of_shapes(std::span<const scene::Shape> shapes,
                                                   std::span<const std::int8_t> materials,
