@@ -7,7 +7,8 @@ namespace mpm {
 
 template <int Dim>
 MeshNodes<Dim>::MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> owned,
-                          const Vec<Dim>& size, const IndexVec<Dim>& period)
+                          const Vec<Dim>& size, const IndexVec<Dim>& period,
+                          const CornerOffsets<Dim>& offsets)
     : corners_(std::move(corners)),
       owned_(std::move(owned)),
       location_size_(size),
@@ -15,8 +16,10 @@ MeshNodes<Dim>::MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> 
       listing_(Nodes<Dim>::new_listing())
 {
   places_.assign(owned_.size() * std::size_t(stride == 1 ? Dim : stride), 0.0);
-  for (LocalIndex node = 0; node < this->size(); ++node)
-    for (int d = 0; d < Dim; ++d) place(node, d) = rest(node, d);
+  for (LocalIndex node = 0; node < this->size(); ++node) {
+    const Vec<Dim> offset = offsets(corner(node));
+    for (int d = 0; d < Dim; ++d) place(node, d) = rest(node, d) + offset[d];
+  }
 }
 
 template <int Dim>

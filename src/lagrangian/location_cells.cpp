@@ -1,3 +1,4 @@
+#include <mpm/core/error.hpp>
 #include <mpm/core/transpose.hpp>
 #include <mpm/lagrangian/location_cells.hpp>
 
@@ -31,8 +32,10 @@ LocationCells<Dim>::LocationCells(const Body<Dim>& body, std::span<const CellNod
     : frame_(size),
       bending_(body.law->bending_moduli(), size),
       deformation_(body.particles.motion().find("deformation")),
-      plastic_bending_(body.particles.motion().find("plastic_bending")),
-      corner_modulus_(4 * body.density * body.law->wave_speed() * body.law->wave_speed())
+      rest_bending_(body.particles.motion().find("rest_bending")),
+      corner_modulus_(4 * body.density * body.law->wave_speed() * body.law->wave_speed()),
+      least_corners_(std::size_t(body.particles.blocks()) * lane_count, least_corner),
+      rest_shares_(std::size_t(body.particles.blocks()) * lane_count, 1.0)
 {
   const LocalIndex cells = body.particles.size();
   corner_nodes_.resize(std::size_t(body.particles.blocks()) * corners_of_cell * lane_count);
@@ -45,14 +48,15 @@ LocationCells<Dim>::LocationCells(const Body<Dim>& body, std::span<const CellNod
 }
 
 template <int Dim>
-std::vector<Column> LocationCells<Dim>::columns(const Law<Dim>& law)
+std::vector<Column> LocationCells<Dim>::columns(const Law<Dim>& law, bool fitted)
 {
   std::vector<Column> list{{"position", Dim, "m"},
                            {"velocity", Dim, "m/s"},
                            {"mass", 1, "kg"},
                            {"deformation", Dim * Dim, "1"}};
-  for (const Column& state : law.state_columns())
-    if (state.name == "plastic_strain") list.push_back(CellBending<Dim>::plastic_column());
+  const std::vector<Column> state = law.state_columns();
+  if (fitted || std::ranges::find(state, "plastic_strain", &Column::name) != state.end())
+    list.push_back(CellBending<Dim>::rest_column());
   return list;
 }
 
@@ -62,6 +66,40 @@ void LocationCells<Dim>::initialise(ColumnGroup& motion, LocalIndex cell)
   const int deformation = motion.find("deformation");
   if (deformation < 0) return;
   for (int d = 0; d < Dim; ++d) motion(deformation + (Dim + 1) * d, cell) = 1;
+}
+
+template <>
+void LocationCells<2>::take_rest(Body<2>& body, const MeshNodes<2>& nodes, double thickness)
+{
+  ParticleStore& cells = body.particles;
+  ColumnGroup& motion = cells.motion();
+  const int position = motion.find("position"), mass = motion.find("mass"),
+            initial_position = motion.find("initial_position");
+  for (LocalIndex p = 0; p < cells.size(); ++p) {
+    const int lane = p % lane_count;
+    const CellCorners<2> at = corners(nodes, p / lane_count);
+    const CellDeformation<2> rest(at, frame_);
+    for (int k = 0; k < 4; ++k) motion(deformation_ + k, p) = rest.f[k][lane];
+    for (int j = 0; j < 2; ++j) motion(rest_bending_ + j, p) = rest.bending[j][lane];
+    const double location = thickness / frame_.inverse_area;
+    cells.state()(0, p) = location * rest.jacobian()[lane];
+    motion(mass, p) = body.density * cells.state()(0, p);
+    const double narrowest = rest.narrowest_corner(frame_)[lane];
+    least_corners_[std::size_t(p)] = least_corner * narrowest;
+    rest_shares_[std::size_t(p)] = narrowest / rest.jacobian()[lane];
+    for (int d = 0; d < 2; ++d) {
+      const Lanes(&x)[corners_of_cell] = at.along[d];
+      motion(position + d, p) = 0.25 * ((x[0][lane] + x[1][lane]) + (x[2][lane] + x[3][lane]));
+      if (initial_position >= 0) motion(initial_position + d, p) = motion(position + d, p);
+    }
+  }
+  cells.seal();
+}
+
+template <>
+void LocationCells<3>::take_rest(Body<3>&, const MeshNodes<3>&, double)
+{
+  throw InputError("cells are fitted to surfaces in the plane only");
 }
 
 template <int Dim>
@@ -124,8 +162,9 @@ template <int Dim>
   now.put_gradient(f, rate, chunk.gradient_of(k));
   for (int j = 0; j < Dim * Dim; ++j) store(now.f[j], f + j * lane_count);
   now.keep(chunk.kept_of(k));
-  bending_.put_trial(now.bending, plastic_of(motion), volume, chunk.bending_of(k));
-  chunk.narrow[k] = stdx::any_of(now.narrowest_corner(frame_) < least_corner);
+  bending_.put_trial(now.bending, rest_of(motion), volume, chunk.bending_of(k));
+  chunk.narrow[k] =
+      stdx::any_of(now.narrowest_corner(frame_) < column(least_corners_.data(), block));
   return now.jacobian();
 }
 
@@ -165,12 +204,14 @@ template <int Dim>
   const Lanes volume = load(cells.state().block(block));
   const CellDeformation<Dim> now(motion + deformation_ * lane_count, chunk.kept_of(k));
   Lanes moment[CellBending<Dim>::modes];
-  bending_.moments(now.bending, chunk.bending_of(k), volume, plastic_of(motion), moment);
+  bending_.moments(now.bending, chunk.bending_of(k), volume, rest_of(motion), moment);
   Lanes tau[stress_columns<Dim>];
   for (int j = 0; j < stress_columns<Dim>; ++j) tau[j] = column(chunk.stress_of(k), j);
   CellCorners<Dim> force = corner_forces(now, tau, moment, frame_);
-  if (chunk.narrow[k]) [[unlikely]]
-    add_corner_forces(corners(nodes, block), corner_modulus_ * volume, frame_, force);
+  if (chunk.narrow[k]) [[unlikely]] {
+    const Lanes least = column(least_corners_.data(), block);
+    add_corner_forces(corners(nodes, block), corner_stiffness(least, volume), frame_, force, least);
+  }
   put_forces(force, block, forces);
 }
 
@@ -207,8 +248,9 @@ double LocationCells<Dim>::bending_energy(const Body<Dim>& body, const MeshNodes
     const Lanes volume = load(body.particles.state().block(b));
     const CellCorners<Dim> at = corners(nodes, b);
     const CellDeformation<Dim> now(at, frame_);
-    bending_.add_energy(now.bending, plastic_of(body.particles.motion().block(b)), volume, sum);
-    sum += corner_energy(at, corner_modulus_ * volume, frame_);
+    bending_.add_energy(now.bending, rest_of(body.particles.motion().block(b)), volume, sum);
+    const Lanes least = column(least_corners_.data(), b);
+    sum += corner_energy(at, corner_stiffness(least, volume), frame_, least);
   }
   return stdx::reduce(sum);
 }
@@ -243,7 +285,10 @@ void LocationCells<Dim>::find_least_stretches(const MeshNodes<Dim>& nodes,
   for (std::size_t first = 0; first < squared.size(); first += lane_count) {
     const CellCorners<Dim> at = corners(nodes, LocalIndex(first / lane_count));
     const CellDeformation<Dim> now(at, frame_);
-    const Lanes middle = least_stretch_squared(now), corner = bent_share(now, at, frame_);
+    // What a cell is bent by at rest does not make its waves faster, other than its least stretch.
+    const Lanes middle = least_stretch_squared(now),
+                corner = stdx::min(bent_share(now, at, frame_) / load(rest_shares_.data() + first),
+                                   Lanes(1.0));
     store(middle * corner * stdx::abs(corner), squared.data() + first);
   }
 }

@@ -31,6 +31,7 @@ TotalLagrangian<Dim>::TotalLagrangian(Decomposition<Dim> decomposition, Setup se
     contact_->find_pairs(*nodes_, 2 * least_way * setup_.location_size.minCoeff());
     contact_->measure(*nodes_);
   }
+  check();
 }
 
 template <int Dim>

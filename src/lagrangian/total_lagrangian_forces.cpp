@@ -21,7 +21,8 @@ void TotalLagrangian<Dim>::add_forces(double dt)
     cells_[b].fill_motion(body, *nodes_, *fields_);
     LostParticle<Dim> lost = lost_particle<Dim>(body.particles, inverted->cell);
     lost.fault = Fault::inverted;
-    lost.ratio = inverted->jacobian;
+    const double location = setup_.location_size.prod() * (Dim == 2 ? setup_.thickness : 1.0);
+    lost.ratio = inverted->jacobian * location / body.particles.state()(0, inverted->cell);
     loss_ = Loss<Dim>{lost, body.name, {steps_, time_ - dt}};
   }
   if constexpr (Dim == 2) gather_cell_forces();

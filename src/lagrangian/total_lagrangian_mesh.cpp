@@ -100,7 +100,8 @@ void TotalLagrangian<Dim>::make_mesh()
   };
 
   LocationMesh<Dim> mesh = make_location_mesh<Dim>(cells, me, occupant_of, setup_.pairs, period);
-  nodes_.emplace(std::move(mesh.nodes), std::move(mesh.owned), setup_.location_size, period);
+  nodes_.emplace(std::move(mesh.nodes), std::move(mesh.owned), setup_.location_size, period,
+                 setup_.offsets);
   run_ = nodes_->run();
   fields_.emplace(nodes_->size(), mesh_needs<Dim>(!setup_.slots.loads.empty()), 0.0);
   halo_.emplace(comm, std::move(mesh.shared));
@@ -110,6 +111,7 @@ void TotalLagrangian<Dim>::make_mesh()
     cells_.emplace_back(body, std::span(mesh.cells).subspan(first, count), setup_.location_size);
     first += count;
   }
+  if (!setup_.offsets.empty()) take_rest();
   least_stretches_.resize(cells_.size());
   if constexpr (Dim == 2) list_node_terms();
   if (setup_.contact_stiffness > 0) make_contact(mesh.cells, occupant_of);
@@ -141,6 +143,16 @@ void TotalLagrangian<Dim>::list_node_terms()
             std::int32_t(first_force_[b] + block * LocationCells<Dim>::block_values +
                          Dim * std::size_t(c) * lane_count + lane);
       }
+}
+
+/// Cells are at rest where their corners stand.
+template <int Dim>
+void TotalLagrangian<Dim>::take_rest()
+{
+  for (std::size_t b = 0; b < cells_.size(); ++b)
+    cells_[b].take_rest(setup_.bodies[b], *nodes_, setup_.thickness);
+  setup_.offsets = {};
+  checked_ = -1;  // the first step has to know them
 }
 
 /// An equal part of a cell's mass and momentum to each of its corners.

@@ -129,6 +129,7 @@ Section::Section(const scene::Scene& scene, GrayImage image, const IndexVec<2>& 
   if (by_threshold)
     figures_.location_threshold =
         micrograph.wall == scene::Wall::bright ? bands_[0].from : bands_[0].to;
+  pixel_bands_ = of_pixels;
   figures_.density = count_in(image_.gray, of_pixels, {}) / double(image_.gray.size());
 
   const double filled = count_in(means, bands_, share);
@@ -159,6 +160,18 @@ std::vector<std::int8_t> Section::materials(const IndexBox<2>& part) const
   std::vector<std::int8_t> materials = materials_of(location_means(image_, count_, part), bands_);
   leave_out_removed(part, materials);
   return materials;
+}
+
+std::vector<double> Section::wall_levels() const
+{
+  std::vector<double> levels = image_.gray;
+  const bool by_threshold = figures_.threshold != 0;
+  for (double& level : levels)
+    if (!by_threshold)
+      level = material_of(level, pixel_bands_) != Lattice<2>::empty;
+    else if (pixel_bands_[0].to == figures_.threshold)
+      level = -level;
+  return levels;
 }
 
 void Section::leave_out_removed(const IndexBox<2>& part, std::vector<std::int8_t>& materials) const

@@ -43,6 +43,11 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       member<N>("formulation", &N::formulation, {},
                 "weights in the present configuration, on a grid that forgets; or in the reference "
                 "one, on cells that are locations, with contact of the body with itself"),
+      member<N>("surface", &N::surface, {},
+                "stairs of locations; or corners of cells at the surface stand where the wall ends "
+                "in the picture or in the shapes")
+          .when(of_cells)
+          .in_plane(),
       member<N>("contact_stiffness", &N::contact_stiffness,
                 {.bound = from_to(0, 100),
                  .default_text = "2 of total_lagrangian, 0.5 of walls with grip: contact"},

@@ -112,7 +112,8 @@ template <int Dim>
 std::vector<Column> motion_columns(const scene::Numerics& numerics, int particles_per_cell,
                                    const Law<Dim>& law)
 {
-  if (is_total_lagrangian(numerics)) return LocationCells<Dim>::columns(law);
+  if (is_total_lagrangian(numerics))
+    return LocationCells<Dim>::columns(law, numerics.surface == scene::Surface::fitted);
   return make_transfer<Dim>(numerics, particles_per_cell)
       ->motion_columns(numerics.update_order->remaps);
 }

@@ -3,6 +3,7 @@
 #include <mpm/lagrangian/location_cells.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/body_contacts.hpp>
+#include <mpm/simulation/fitted_surface.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
 #include <mpm/simulation/surface_marks.hpp>
@@ -309,6 +310,8 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
     });
     model.bodies.back().particles.seal();
   }
+  model.offsets =
+      surface_offsets(scene, specimen, layout, nearby(specimen.whole(), layout, decomposition));
   add_contact(scene, layout, model);
   if (std::holds_alternative<scene::Loading>(scene.motion))
     add_apparatus(scene, specimen, layout, model);

@@ -88,7 +88,7 @@ def section(case, before):
     for method, errors in case["errors"].items():
         orderless = None in errors or max(map(abs, errors)) < case.get("floor", 0)
         rates = [] if orderless else orders(case["levels"], errors)
-        text.append(f"| {method if method == CELLS else method.replace(' ', ', ')} | " +
+        text.append(f"| {method if method in CELLS else method.replace(' ', ', ')} | " +
                     " | ".join(cell(case, error) for error in errors) + " | " +
                     ", ".join(f"{rate:.2f}" for rate in rates) + " |")
     if "remark" in case:

@@ -1,6 +1,7 @@
 #pragma once
 /// Nodes that belong to a body and move with it.
 
+#include <mpm/core/corner_offsets.hpp>
 #include <mpm/core/lane_vector.hpp>
 #include <mpm/grid/grid_topology.hpp>
 #include <mpm/grid/node_fields.hpp>
@@ -10,13 +11,13 @@
 
 namespace mpm {
 
-/// Corners of a lattice of locations, which stand on the lattice at time 0.
+/// Corners of a lattice of locations, which stand on the lattice at time 0, or beside it.
 template <int Dim>
 class MeshNodes final : public Nodes<Dim> {
  public:
   /// `corners` of the lattice, `size` of a location, m, `period` in locations, 0 for axes without.
   MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> owned, const Vec<Dim>& size,
-            const IndexVec<Dim>& period);
+            const IndexVec<Dim>& period, const CornerOffsets<Dim>& offsets = {});
 
   LocalIndex size() const override { return LocalIndex(owned_.size()); }
   void find_within(const Region<Dim>& region, std::vector<LocalIndex>& nodes) const override;
@@ -26,7 +27,7 @@ class MeshNodes final : public Nodes<Dim> {
   const Vec<Dim>& spacing() const override { return location_size_; }
   Vec<Dim> period() const override;
 
-  /// m, at time 0.
+  /// m, on the lattice: at time 0, but for its offset.
   double rest(LocalIndex node, int axis) const
   {
     return corners_[std::size_t(node)][axis] * location_size_[axis];

@@ -183,9 +183,9 @@ struct CornerEdges {
   {
     return determinant<3>(edge) * frame.inverse_volume();
   }
-  [[gnu::always_inline]] Lanes gap(const CellFrame<3>& frame) const
+  [[gnu::always_inline]] Lanes gap(const CellFrame<3>& frame, const Lanes& least) const
   {
-    return stdx::max(least_corner - share(frame), Lanes(0.0));
+    return stdx::max(least - share(frame), Lanes(0.0));
   }
 };
 
@@ -202,11 +202,11 @@ inline Lanes narrowest_share(const CellCorners<3>& at, const CellFrame<3>& frame
 
 /// As in the plane, with the volume that a corner's edges span.
 inline Lanes corner_energy(const CellCorners<3>& at, const Lanes& stiffness,
-                           const CellFrame<3>& frame)
+                           const CellFrame<3>& frame, const Lanes& least = least_corner)
 {
   Lanes energy = 0.0;
   for (int corner = 0; corner < CellCorners<3>::count; ++corner) {
-    const Lanes gap = brick_detail::CornerEdges(at, corner).gap(frame);
+    const Lanes gap = brick_detail::CornerEdges(at, corner).gap(frame, least);
     energy += 0.5 * stiffness * gap * gap;
   }
   return energy;
@@ -214,11 +214,12 @@ inline Lanes corner_energy(const CellCorners<3>& at, const Lanes& stiffness,
 
 /// Adds minus its derivative.
 inline void add_corner_forces(const CellCorners<3>& at, const Lanes& stiffness,
-                              const CellFrame<3>& frame, CellCorners<3>& force)
+                              const CellFrame<3>& frame, CellCorners<3>& force,
+                              const Lanes& least = least_corner)
 {
   for (int corner = 0; corner < CellCorners<3>::count; ++corner) {
     const brick_detail::CornerEdges edges(at, corner);
-    const Lanes push = stiffness * frame.inverse_volume() * edges.gap(frame);
+    const Lanes push = stiffness * frame.inverse_volume() * edges.gap(frame, least);
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i) {
         const Lanes f = push * cofactor<3>(edges.edge, i, j);

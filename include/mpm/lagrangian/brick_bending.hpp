@@ -22,13 +22,13 @@ class CellBending<3> {
       : moduli_(moduli), half_{0.5 * size[0], 0.5 * size[1], 0.5 * size[2]}
   {
   }
-  static Column plastic_column() { return {"plastic_bending", modes, "1"}; }
+  static Column rest_column() { return {"rest_bending", modes, "1"}; }
 
-  /// For the law, as in bending.hpp. `plastic`: columns of what is plastic of the strains, or null.
-  [[gnu::always_inline]] void put_trial(const Lanes (&bent)[modes], const double* plastic,
+  /// For the law, as in bending.hpp. `rest`: columns of what is plastic of the strains, or null.
+  [[gnu::always_inline]] void put_trial(const Lanes (&bent)[modes], const double* rest,
                                         const Lanes& volume, double* columns) const
   {
-    const Squares squares(elastic_strains(bent, plastic));
+    const Squares squares(elastic_strains(bent, rest));
     // A plate that yields all through bears 3/2 of what its outermost fibres would bear
     // elastically, fibres that are warped along either edge 9/4.
     store(moduli_.alike * moduli_.alike * squares.alike / 9.0, columns);
@@ -41,14 +41,14 @@ class CellBending<3> {
   /// Once the law has put shares in place of the squares: dW/db at 3 m, J m and J m^2, and what is
   /// plastic.
   [[gnu::always_inline]] void moments(const Lanes (&bent)[modes], const double* columns,
-                                      const Lanes& volume, double* plastic,
+                                      const Lanes& volume, double* rest,
                                       Lanes (&moment)[modes]) const
   {
-    Strains elastic = elastic_strains(bent, plastic);
+    Strains elastic = elastic_strains(bent, rest);
     const Lanes alike_share = load(columns), other_share = load(columns + lane_count);
-    if (plastic && stdx::any_of(stdx::min(alike_share, other_share) < 1.0))
+    if (rest && stdx::any_of(stdx::min(alike_share, other_share) < 1.0))
       for (int k = 0; k < modes; ++k) {
-        double* of_mode = plastic + k * lane_count;
+        double* of_mode = rest + k * lane_count;
         const Lanes lost = elastic.of[k] * (1.0 - (is_alike(k) ? alike_share : other_share));
         store(load(of_mode) + lost, of_mode);
         elastic.of[k] -= lost;
@@ -69,10 +69,10 @@ class CellBending<3> {
     }
   }
   /// J
-  void add_energy(const Lanes (&bent)[modes], const double* plastic, const Lanes& volume,
+  void add_energy(const Lanes (&bent)[modes], const double* rest, const Lanes& volume,
                   Lanes& sum) const
   {
-    const Squares squares(elastic_strains(bent, plastic));
+    const Squares squares(elastic_strains(bent, rest));
     sum += volume * (alike_energy(squares) + other_energy(squares));
   }
 
@@ -95,7 +95,7 @@ class CellBending<3> {
     }
   };
   [[gnu::always_inline]] Strains elastic_strains(const Lanes (&bent)[modes],
-                                                 const double* plastic) const
+                                                 const double* rest) const
   {
     Strains strains;
     for (int j = 0; j < 3; ++j) {
@@ -106,8 +106,8 @@ class CellBending<3> {
       strains.of[3 * j + 2] = half_[j] * (bent[3 * i + i] + bent[3 * k + k]);
       strains.of[9 + j] = half_[i] * half_[k] * bent[9 + j];
     }
-    if (plastic)
-      for (int k = 0; k < modes; ++k) strains.of[k] -= column(plastic, k);
+    if (rest)
+      for (int k = 0; k < modes; ++k) strains.of[k] -= column(rest, k);
     return strains;
   }
   /// Pa

@@ -33,9 +33,13 @@ class LocationCells {
   /// `nodes` of each of the body's cells, in the order of its particles; `size` of a cell, m.
   LocationCells(const Body<Dim>& body, std::span<const CellNodes> nodes, const Vec<Dim>& size);
 
-  static std::vector<Column> columns(const Law<Dim>& law);
+  /// `fitted`: cells may be of any shape at rest.
+  static std::vector<Column> columns(const Law<Dim>& law, bool fitted = false);
   /// A cell at rest; nothing where particles are no cells.
   static void initialise(ColumnGroup& motion, LocalIndex cell);
+  /// Cells of any shape are at rest with their corners where they are: volumes, masses, places and
+  /// what they are deformed and bent by, relative to the lattice, follow. `thickness`, m.
+  void take_rest(Body<Dim>& body, const MeshNodes<Dim>& nodes, double thickness);
 
   struct Inverted {
     LocalIndex cell;
@@ -52,7 +56,7 @@ class LocationCells {
   void fill_motion(Body<Dim>& body, const MeshNodes<Dim>& nodes,
                    const NodeFields<Dim>& fields) const;
   /// Squares of the least stretch of every cell, [blocks * lanes]: in the middle, and less where a
-  /// corner is narrower.
+  /// corner has become narrower than at rest.
   void find_least_stretches(const MeshNodes<Dim>& nodes, LaneVector<double>& squared) const;
   /// m/s, of the fastest wave across a cell, as if it had the size that it has at rest; stretches
   /// below `floor` count as that.
@@ -61,7 +65,10 @@ class LocationCells {
 
   /// [blocks * corners * lanes]; lanes of padding name those of a real cell.
   const std::vector<LocalIndex>& corner_nodes() const { return corner_nodes_; }
-  std::size_t bytes() const { return corner_nodes_.size() * sizeof(LocalIndex); }
+  std::size_t bytes() const
+  {
+    return corner_nodes_.size() * sizeof(LocalIndex) + 2 * least_corners_.size() * sizeof(double);
+  }
 
  private:
   struct Chunk;
@@ -69,23 +76,33 @@ class LocationCells {
                Chunk& chunk, int k) const;
   void push(ParticleStore& cells, LocalIndex block, const MeshNodes<Dim>& nodes, const Chunk& chunk,
             int k, Forces forces) const;
+  /// J at which a corner held open at `least` has the energy that one at rest has at least_corner.
+  Lanes corner_stiffness(const Lanes& least, const Lanes& volume) const
+  {
+    const Lanes share = least_corner / least;
+    return corner_modulus_ * volume * share * share;
+  }
   void put_forces(const CellCorners<Dim>& force, LocalIndex block, Forces forces) const;
   CellCorners<Dim> corners(const MeshNodes<Dim>& nodes, LocalIndex block) const;
 
-  /// Columns of what is plastic of the modes; none where the law does not flow.
-  const double* plastic_of(const double* motion) const
+  /// Columns of the modes without moments; none where they are 0 for good.
+  const double* rest_of(const double* motion) const
   {
-    return plastic_bending_ < 0 ? nullptr : motion + plastic_bending_ * lane_count;
+    return rest_bending_ < 0 ? nullptr : motion + rest_bending_ * lane_count;
   }
-  double* plastic_of(double* motion) const
+  double* rest_of(double* motion) const
   {
-    return const_cast<double*>(plastic_of(static_cast<const double*>(motion)));
+    return const_cast<double*>(rest_of(static_cast<const double*>(motion)));
   }
 
   CellFrame<Dim> frame_;
   CellBending<Dim> bending_;
-  int deformation_, plastic_bending_;
+  int deformation_, rest_bending_;
   double corner_modulus_;  ///< Pa
+  /// [blocks * lanes], of what a location's corner spans: corners below are held open.
+  LaneVector<double> least_corners_;
+  /// [blocks * lanes], of what its middle would span: the narrowest corner of a cell at rest.
+  LaneVector<double> rest_shares_;
   std::vector<LocalIndex> corner_nodes_;
 };
 

@@ -92,32 +92,33 @@ class CellBending<2> {
       bending_[axis] = modulus * thickness * thickness / 12;
     }
   }
-  static Column plastic_column() { return {"plastic_bending", modes, "1/m"}; }
+  static Column rest_column() { return {"rest_bending", modes, "1/m"}; }
 
-  /// For the law, as in bending.hpp. `plastic`: columns of what is plastic of the modes, or null.
-  [[gnu::always_inline]] void put_trial(const Lanes (&bent)[modes], const double* plastic,
+  /// For the law, as in bending.hpp. `rest`: columns of the bending without moments, which is what
+  /// the cell had at rest and what is plastic since; or null where that stays 0.
+  [[gnu::always_inline]] void put_trial(const Lanes (&bent)[modes], const double* rest,
                                         const Lanes& volume, double* columns) const
   {
     Lanes squared = 0.0, energy = 0.0;
     for (int j = 0; j < modes; ++j) {
       Lanes elastic = bent[j];
-      if (plastic) elastic -= column(plastic, j);
+      if (rest) elastic -= column(rest, j);
       squared += (fibre_stress_[j] * elastic) * (fibre_stress_[j] * elastic);
       energy += 0.5 * bending_[j] * elastic * elastic;
     }
     store(squared, columns);
     store(volume * energy, columns + lane_count);
   }
-  /// Once the law has put shares in place of the squares: moments, J m, and what is plastic.
+  /// Once the law has put shares in place of the squares: moments, J m, and what becomes plastic.
   [[gnu::always_inline]] void moments(const Lanes (&bent)[modes], const double* columns,
-                                      const Lanes& volume, double* plastic,
+                                      const Lanes& volume, double* rest,
                                       Lanes (&moment)[modes]) const
   {
     const Lanes scale = load(columns);
     for (int j = 0; j < modes; ++j) {
       Lanes elastic = bent[j];
-      if (plastic) {
-        double* of_mode = plastic + j * lane_count;
+      if (rest) {
+        double* of_mode = rest + j * lane_count;
         const Lanes before = load(of_mode);
         elastic = scale * (elastic - before);
         store(select(scale < 1.0, bent[j] - elastic, before), of_mode);
@@ -126,12 +127,12 @@ class CellBending<2> {
     }
   }
   /// J
-  void add_energy(const Lanes (&bent)[modes], const double* plastic, const Lanes& volume,
+  void add_energy(const Lanes (&bent)[modes], const double* rest, const Lanes& volume,
                   Lanes& sum) const
   {
     for (int j = 0; j < modes; ++j) {
       Lanes elastic = bent[j];
-      if (plastic) elastic -= column(plastic, j);
+      if (rest) elastic -= column(rest, j);
       sum += 0.5 * bending_[j] * volume * elastic * elastic;
     }
   }
@@ -198,23 +199,25 @@ struct CornerEdges {
   {
   }
   /// By how much they span too little, of the area at rest.
-  [[gnu::always_inline]] Lanes gap(const CellFrame<2>& frame) const
+  [[gnu::always_inline]] Lanes gap(const CellFrame<2>& frame, const Lanes& least) const
   {
-    return stdx::max(least_corner - (ux * wy - uy * wx) * frame.inverse_area, Lanes(0.0));
+    return stdx::max(least - (ux * wy - uy * wx) * frame.inverse_area, Lanes(0.0));
   }
 };
 
 }  // namespace plane_cell_detail
 
-/// sum over the corners of stiffness (least_corner - a)^2 / 2, a = span of the corner's edges over
-/// that at rest: 0 for every affine deformation with J > least_corner. One-point cells without it
-/// tangle where they are pressed from all sides. `stiffness`, J.
+/// sum over the corners of stiffness (least - a)^2 / 2, a = span of the corner's edges over that of
+/// a location; `least` is least_corner of that of the narrowest corner at rest, so that it is 0 for
+/// every affine deformation by J > least_corner. One-point cells without it tangle where they are
+/// pressed from all sides. `stiffness`, J.
 [[gnu::always_inline]] inline Lanes corner_energy(const CellCorners<2>& at, const Lanes& stiffness,
-                                                  const CellFrame<2>& frame)
+                                                  const CellFrame<2>& frame,
+                                                  const Lanes& least = least_corner)
 {
   Lanes energy = 0.0;
   for (int k = 0; k < 4; ++k) {
-    const Lanes gap = plane_cell_detail::CornerEdges(at, k).gap(frame);
+    const Lanes gap = plane_cell_detail::CornerEdges(at, k).gap(frame, least);
     energy += 0.5 * stiffness * gap * gap;
   }
   return energy;
@@ -224,12 +227,13 @@ struct CornerEdges {
 [[gnu::always_inline]] inline void add_corner_forces(const CellCorners<2>& at,
                                                      const Lanes& stiffness,
                                                      const CellFrame<2>& frame,
-                                                     CellCorners<2>& force)
+                                                     CellCorners<2>& force,
+                                                     const Lanes& least = least_corner)
 {
   using namespace plane_cell_detail;
   for (int k = 0; k < 4; ++k) {
     const CornerEdges edges(at, k);
-    const Lanes push = stiffness * frame.inverse_area * edges.gap(frame);
+    const Lanes push = stiffness * frame.inverse_area * edges.gap(frame, least);
     const int p = next[k], q = last[k];
     force.along[0][p] += push * edges.wy;
     force.along[1][p] -= push * edges.wx;

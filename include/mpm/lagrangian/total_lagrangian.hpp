@@ -30,6 +30,9 @@ class TotalLagrangian final : public Formulation<Dim> {
     /// Cells with a smaller least stretch are made heavier by the square of this over it, so that
     /// they do not shorten the step. 0: none.
     double mass_scaling = 0.8;
+    /// At rest the corners stand so beside the lattice; those of this rank's cells at least. In the
+    /// plane only.
+    CornerOffsets<Dim> offsets{};
   };
 
   TotalLagrangian(Decomposition<Dim> decomposition, Setup setup);
@@ -64,6 +67,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   using Formulation<Dim>::steps_between_checks;
 
   void make_mesh();
+  void take_rest();
   void make_contact(const std::vector<CellNodes>& cells, const OccupantOf<Dim>& occupant_of);
   void list_node_terms();
   void add_masses();

@@ -3,6 +3,7 @@
 
 #include <mpm/micrograph/lattice.hpp>
 #include <mpm/micrograph/section.hpp>
+#include <mpm/micrograph/wall_places.hpp>
 
 #include <array>
 #include <span>
@@ -16,6 +17,9 @@ class LocationSource {
   virtual ~LocationSource() = default;
   /// Fills a lattice whose count and part are set. Not collective.
   virtual void fill(Lattice<Dim>& lattice) const = 0;
+  /// What the locations are taken from; `count` of them cover the specimen. `periodic`: x and y.
+  virtual std::unique_ptr<WallPlaces<Dim>> wall_places(
+      const IndexVec<Dim>& count, const std::array<bool, 2>& periodic) const = 0;
 };
 
 /// A location belongs to the last shape that contains its centre.
@@ -26,6 +30,11 @@ class ShapeSource : public LocationSource<Dim> {
   ShapeSource(const scene::Scene& scene, const Vec<Dim>& size);
 
   void fill(Lattice<Dim>& lattice) const override { fill(lattice, {}); }
+  std::unique_ptr<WallPlaces<Dim>> wall_places(const IndexVec<Dim>& count,
+                                               const std::array<bool, 2>&) const override
+  {
+    return places_of_shapes<Dim>(shapes_, materials_, size_, count);
+  }
   /// Marks the shapes that contain the centre of a location, if there are marks.
   void fill(Lattice<Dim>& lattice, std::span<double> found) const;
   /// Index into scene.materials, or Lattice::empty, of what a shape is made of.
@@ -43,6 +52,14 @@ class PictureSource : public LocationSource<Dim> {
  public:
   explicit PictureSource(Section section) : section_(std::move(section)) {}
   void fill(Lattice<Dim>& lattice) const override;
+  std::unique_ptr<WallPlaces<Dim>> wall_places(const IndexVec<Dim>& count,
+                                               const std::array<bool, 2>& periodic) const override
+  {
+    const GrayImage& image = section_.image();
+    return places_of_picture<Dim>(
+        {image.width, image.height, section_.wall_levels(), section_.figures().density}, count,
+        periodic);
+  }
 
  private:
   Section section_;

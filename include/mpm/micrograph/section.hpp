@@ -38,6 +38,10 @@ class Section {
   const PictureFigures& figures() const { return figures_; }
   /// Materials of the locations of a part, x fastest.
   std::vector<std::int8_t> materials(const IndexBox<2>& part) const;
+  /// Of each pixel, top row first, the higher the more it is wall: its gray, minus that where walls
+  /// are dark, or with bands whether it lies in one.
+  std::vector<double> wall_levels() const;
+  const GrayImage& image() const { return image_; }
 
  private:
   /// `rows`: this part's slab, `filled`: locations of all parts. Collective.
@@ -47,8 +51,9 @@ class Section {
 
   GrayImage image_;
   IndexVec<2> count_;
-  std::vector<Band> bands_;   ///< of the locations' mean grays
-  std::vector<Run> removed_;  ///< in the order of their rows
+  std::vector<Band> pixel_bands_;  ///< of the pixels' grays
+  std::vector<Band> bands_;        ///< of the locations' mean grays
+  std::vector<Run> removed_;       ///< in the order of their rows
   PictureFigures figures_;
 };
 

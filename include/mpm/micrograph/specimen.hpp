@@ -50,6 +50,11 @@ class Specimen {
 
   /// Rasters a part of the lattice. Not collective; any part may ask for any box of locations.
   Lattice<Dim> lattice(const IndexBox<Dim>& part) const;
+  /// Where it is wall, finer than that. `periodic`: along x and y.
+  std::unique_ptr<WallPlaces<Dim>> wall_places(const std::array<bool, 2>& periodic) const
+  {
+    return source_->wall_places(count_, periodic);
+  }
 
  private:
   void settle_picture(const scene::Scene& scene, Picture picture, const Share& share);

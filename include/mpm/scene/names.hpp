@@ -48,6 +48,9 @@ inline constexpr auto names_of<FormulationKind> = std::to_array<Named<Formulatio
     {{FormulationKind::updated_lagrangian, "updated_lagrangian"},
      {FormulationKind::total_lagrangian, "total_lagrangian"}});
 template <>
+inline constexpr auto names_of<Surface> =
+    std::to_array<Named<Surface>>({{Surface::stairs, "stairs"}, {Surface::fitted, "fitted"}});
+template <>
 inline constexpr auto names_of<Recovery> =
     std::to_array<Named<Recovery>>({{Recovery::stop, "stop"}, {Recovery::retry, "retry"}});
 template <>

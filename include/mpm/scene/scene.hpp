@@ -111,8 +111,15 @@ enum class DecompositionKind { automatic, cuts, metis };
 
 enum class FormulationKind { updated_lagrangian, total_lagrangian };
 
+/// Of the cells of total_lagrangian.
+enum class Surface {
+  stairs,  ///< of locations
+  fitted   ///< where the wall ends in the picture, or the shape
+};
+
 struct Numerics {
   FormulationKind formulation = FormulationKind::updated_lagrangian;
+  Surface surface = Surface::stairs;
   /// Over the modulus of the fastest wave times the depth over the size of a location, of the
   /// pressure of a wall that pushes, and of half of that across a flush face in total_lagrangian,
   /// where 0 is none.

@@ -2,6 +2,7 @@
 /// From a scene and its specimen to bodies and what acts on them: the run before its first step.
 
 #include <mpm/conditions/rigid_wall.hpp>
+#include <mpm/core/corner_offsets.hpp>
 #include <mpm/simulation/layout.hpp>
 #include <mpm/stepping/formulation.hpp>
 
@@ -34,6 +35,7 @@ template <int Dim>
 struct Model {
   std::vector<Body<Dim>> bodies;
   Slots<Dim> slots{};
+  CornerOffsets<Dim> offsets{};  ///< of the corners of this rank's locations at rest
   std::optional<Apparatus<Dim>> apparatus;
 };
 

@@ -1,0 +1,24 @@
+#pragma once
+/// How far corners of a lattice stand from where the lattice has them.
+
+#include <mpm/core/index_box.hpp>
+
+#include <vector>
+
+namespace mpm {
+
+/// Of a box of corners, m; corners beyond it stand on the lattice.
+template <int Dim>
+struct CornerOffsets {
+  IndexBox<Dim> corners{};
+  std::vector<Vec<Dim>> offsets;  ///< x fastest; empty: all stand on the lattice
+
+  bool empty() const { return offsets.empty(); }
+  Vec<Dim> operator()(const IndexVec<Dim>& corner) const
+  {
+    if (empty() || !corners.contains(corner)) return Vec<Dim>::Zero();
+    return offsets[std::size_t(number_in(corners, corner))];
+  }
+};
+
+}  // namespace mpm

@@ -1,0 +1,158 @@
+// Corners of locations on the surface of a wall.
+#include <mpm/micrograph/fitted_corners.hpp>
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace mpm::micrograph {
+namespace {
+
+/// A wall between two parallel lines.
+struct Inclined final : WallPlaces<2> {
+  double slope, lower, upper;
+  Inclined(double slope_, double lower_, double upper_)
+      : slope(slope_), lower(lower_), upper(upper_)
+  {
+  }
+  bool contains(const Vec<2>& at) const override
+  {
+    const double y = at[1] - slope * at[0];
+    return y >= lower && y < upper;
+  }
+};
+
+FittedLattice lattice_of(const WallPlaces<2>& wall, const IndexVec<2>& count, bool periodic = false)
+{
+  return {count,
+          Vec<2>(1, 1),
+          {periodic, false},
+          [&wall](const IndexVec<2>& at) {
+            const Vec<2> centre = at.cast<double>() + Vec<2>::Constant(0.5);
+            return wall.contains(centre) ? 0 : -1;
+          },
+          [](const IndexVec<2>&) { return false; }};
+}
+
+IndexBox<2> whole(const IndexVec<2>& count)
+{
+  return {IndexVec<2>::Zero(), count};
+}
+
+/// Of the wall's cells.
+double area(const CornerOffsets<2>& offsets, const FittedLattice& lattice)
+{
+  double sum = 0;
+  for_each_index(whole(lattice.count), [&](const IndexVec<2>& at) {
+    if (lattice.body(at) < 0) return;
+    const auto x = [&](int i, int j) -> Vec<2> {
+      const IndexVec<2> corner = at + IndexVec<2>(i, j);
+      return corner.cast<double>() + offsets(corner);
+    };
+    const Vec<2> u = x(1, 1) - x(0, 0), w = x(0, 1) - x(1, 0);
+    const double cell = 0.5 * (u[0] * w[1] - u[1] * w[0]);
+    EXPECT_GT(cell, 0.3);
+    sum += cell;
+  });
+  return sum;
+}
+
+TEST(FittedCorners, StayWhereFacesLieOnTheLattice)
+{
+  const IndexVec<2> count(20, 12);
+  const Inclined wall(0, 4, 7);
+  const FittedLattice lattice = lattice_of(wall, count);
+  for (const Vec<2>& offset : fitted_corners(whole(count), lattice, wall).offsets)
+    EXPECT_LT(offset.norm(), 1e-8);  // the place at which a face is found is halved so far
+}
+
+TEST(FittedCorners, StandOnFacesAlongTheLattice)
+{
+  const IndexVec<2> count(20, 12);
+  const Inclined wall(0, 4.3, 6.8);
+  const FittedLattice lattice = lattice_of(wall, count);
+  const CornerOffsets<2> offsets = fitted_corners(whole(count), lattice, wall);
+  EXPECT_NEAR(area(offsets, lattice), 20 * 2.5, 1e-6);
+  EXPECT_NEAR(offsets({7, 4})[1], 0.3, 1e-8);
+  EXPECT_NEAR(offsets({7, 7})[1], -0.2, 1e-8);
+  EXPECT_GT(offsets({7, 5})[1], 0.01);  // within the wall they follow a little
+}
+
+TEST(FittedCorners, GiveInclinedWallsTheirArea)
+{
+  const IndexVec<2> count(60, 66);
+  for (const double slope : {0.2, 0.5, 0.577, 0.9}) {
+    const double lower = 2.37, upper = lower + 2.1 * std::sqrt(1 + slope * slope);
+    const Inclined wall(slope, lower, upper);
+    const FittedLattice lattice = lattice_of(wall, count);
+    const double stairs = area({}, lattice),
+                 fitted = area(fitted_corners(whole(count), lattice, wall), lattice);
+    const double exact = 60 * (upper - lower);
+    EXPECT_NEAR(fitted / exact, 1, 0.01) << slope << ", stairs " << stairs / exact;
+  }
+}
+
+TEST(FittedCorners, MoveAlongTheBorderOnly)
+{
+  const IndexVec<2> count(30, 40);
+  const Inclined wall(0.6, 5.2, 9.1);
+  const CornerOffsets<2> offsets = fitted_corners(whole(count), lattice_of(wall, count), wall);
+  double along = 0;
+  for (int j = 0; j <= 40; ++j)
+    for (const int i : {0, 30}) {
+      EXPECT_EQ(offsets({i, j})[0], 0);
+      along += std::abs(offsets({i, j})[1]);
+    }
+  EXPECT_GT(along, 0.1);
+}
+
+TEST(FittedCorners, AreTheSameInEveryPart)
+{
+  const IndexVec<2> count(90, 90);
+  const Inclined wall(0.7, 8.15, 11.4);
+  const FittedLattice lattice = lattice_of(wall, count);
+  const CornerOffsets<2> all = fitted_corners(whole(count), lattice, wall);
+  for (const IndexBox<2>& part : {IndexBox<2>{{0, 0}, {40, 90}}, IndexBox<2>{{40, 30}, {70, 61}}}) {
+    const CornerOffsets<2> some = fitted_corners(part, lattice, wall);
+    for_each_index(some.corners, [&](const IndexVec<2>& at) { EXPECT_EQ(some(at), all(at)); });
+  }
+}
+
+TEST(FittedCorners, AreTheSameAtBothEndsOfAPeriod)
+{
+  /// Waves that begin again after the period.
+  struct Waves final : WallPlaces<2> {
+    bool contains(const Vec<2>& at) const override
+    {
+      return std::abs(at[1] - 10 - 3 * std::sin(at[0] * (2 * 3.14159265358979 / 40))) < 1.6;
+    }
+  };
+  const IndexVec<2> count(40, 20);
+  const Waves wall;
+  const CornerOffsets<2> offsets =
+      fitted_corners(whole(count), lattice_of(wall, count, true), wall);
+  double moved = 0;
+  for (int j = 0; j <= 20; ++j) {
+    EXPECT_EQ(offsets({0, j}), offsets({40, j}));
+    moved += offsets({0, j}).norm();
+  }
+  EXPECT_GT(moved, 0.1);
+}
+
+TEST(FittedCorners, StayAtHingesAndBetweenBodies)
+{
+  const IndexVec<2> count(6, 6);
+  const Inclined wall(0.3, 1.2, 4.4);
+  FittedLattice lattice = lattice_of(wall, count);
+  lattice.body = [](const IndexVec<2>& at) {
+    if (at == IndexVec<2>(1, 1) || at == IndexVec<2>(2, 2)) return 0;  // meet in a corner
+    return at == IndexVec<2>(3, 2) ? 1 : -1;                           // a body beside one of them
+  };
+  const CornerOffsets<2> offsets = fitted_corners(whole(count), lattice, wall);
+  EXPECT_EQ(offsets({2, 2}), (Vec<2>::Zero()));
+  EXPECT_EQ(offsets({3, 2}), (Vec<2>::Zero()));
+  EXPECT_EQ(offsets({3, 3}), (Vec<2>::Zero()));
+}
+
+}  // namespace
+}  // namespace mpm::micrograph
