@@ -105,7 +105,8 @@ class Ring {
     cells_ = id;
     if (scene.pressed)
       for (const bool upper : {false, true}) {
-        const double face = (scene.first_x + (upper ? 24 : 0)) * size[0];
+        const double room = scene.fitted ? 0.3 : 0;  // corners stand beyond the lattice there
+        const double face = (scene.first_x + (upper ? 24 + room : -room)) * size[0];
         setup.slots.conditions.push_back(std::make_unique<RigidWall<2>>(
             WallPlacement{0, upper, face}, WallMotion{upper ? -wall_speed : wall_speed, 0},
             WallGrip::contact, ReactionBook{}));
