@@ -172,19 +172,28 @@ void OverlapContact<Dim>::list_pairs(double skin)
   constexpr GlobalIndex bins_per_axis = GlobalIndex(1) << (62 / Dim);
   const double width = 1.5 * size_.maxCoeff() + skin;
   const auto bin_of = [&](double place) { return LocalIndex(std::floor(place / width)); };
+  const auto number_of = [](const IndexVec<Dim>& at) {
+    GlobalIndex bin = 0;
+    for (int d = Dim - 1; d >= 0; --d) bin = bin * bins_per_axis + at[d];
+    return bin;
+  };
   std::vector<Entry> entries;
+  std::vector<IndexVec<Dim>> first_bins;  // of each cell
   for (std::size_t c = 0; c < stiffness_.size(); ++c) {
     IndexBox<Dim> bins;
     for (int d = 0; d < Dim; ++d) {
       bins.lower[d] = bin_of(boxes_[c][std::size_t(d)] - 0.5 * skin);
       bins.upper[d] = bin_of(boxes_[c][std::size_t(Dim + d)] + 0.5 * skin) + 1;
     }
+    first_bins.push_back(bins.lower);
     for_each_index(bins, [&](const IndexVec<Dim>& at) {
-      GlobalIndex bin = 0;
-      for (int d = Dim - 1; d >= 0; --d) bin = bin * bins_per_axis + at[d];
-      entries.push_back({bin, LocalIndex(c)});
+      entries.push_back({number_of(at), LocalIndex(c)});
     });
   }
+  // Of the bins that both are in the first one counts.
+  const auto counts_in = [&](GlobalIndex bin, LocalIndex a, LocalIndex b) {
+    return number_of(first_bins[std::size_t(a)].cwiseMax(first_bins[std::size_t(b)])) == bin;
+  };
   std::sort(entries.begin(), entries.end());
   pairs_.clear();
   for (auto first = entries.begin(); first != entries.end();) {
@@ -193,12 +202,11 @@ void OverlapContact<Dim>::list_pairs(double skin)
     for (auto a = first; a != last && a->cell < cells(); ++a)
       for (auto b = a + 1; b != last; ++b)
         if (meet<Dim>(boxes_[std::size_t(a->cell)], boxes_[std::size_t(b->cell)], skin) &&
-            can_meet(a->cell, b->cell))
+            counts_in(first->bin, a->cell, b->cell) && can_meet(a->cell, b->cell))
           pairs_.push_back({a->cell, b->cell});
     first = last;
   }
   std::sort(pairs_.begin(), pairs_.end());
-  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
   turned_.resize(pairs_.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const IndexVec<Dim>& a = locations_[std::size_t(pairs_[k].first)];

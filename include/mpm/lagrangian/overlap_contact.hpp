@@ -75,8 +75,7 @@ class OverlapContact final : public SelfContact<Dim> {
     LocalIndex first, second;
     auto operator<=>(const Pair&) const = default;
   };
-  /// Of one cell and the cells of its own rank; the images of a cell across periodic sides are
-  /// numbered with the first axis fastest, its own place is the one in the middle.
+  /// Of a cell across periodic sides, the first axis fastest; its own place is in the middle.
   static constexpr int images = Dim == 2 ? 9 : 27, itself = images / 2;
 
   LocalIndex cells() const { return LocalIndex(cells_.size()); }
