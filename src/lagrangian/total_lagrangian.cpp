@@ -138,8 +138,13 @@ void TotalLagrangian<Dim>::scale_masses()
   constexpr int corners = LocationMesh<Dim>::corners;
   const double bound = setup_.mass_scaling * setup_.mass_scaling;
   std::vector<double> before(std::size_t(nodes_->size()));
-  for (LocalIndex node = 0; node < nodes_->size(); ++node)
+  const auto momentum_of = [&](LocalIndex node) {
+    return &fields_->momentum_column().values[std::size_t(node) * NodeFields<Dim>::record_width];
+  };
+  for (LocalIndex node = 0; node < nodes_->size(); ++node) {
     before[std::size_t(node)] = std::exchange(fields_->mass_of(node), 0.0);
+    std::fill_n(momentum_of(node), Dim, 0.0);
+  }
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     const ParticleStore& particles = setup_.bodies[b].particles;
     const int mass = particles.motion().find("mass");
@@ -154,25 +159,35 @@ void TotalLagrangian<Dim>::scale_masses()
           (stdx::max(bound / stdx::max(least, Lanes(least_of_all)), Lanes(1.0)) - 1.0);
       const LocalIndex* node = &cells_[b].corner_nodes()[std::size_t(block) * corners * lane_count];
       const int count = std::min<LocalIndex>(lane_count, particles.size() - block * lane_count);
-      for (int lane = 0; lane < count; ++lane)
+      for (int lane = 0; lane < count; ++lane) {
+        if (!(added[lane] > 0)) continue;
+        Vec<Dim> velocity = Vec<Dim>::Zero();
         for (int c = 0; c < corners; ++c)
-          fields_->mass_of(node[c * lane_count + lane]) += added[lane] / corners;
+          velocity += Eigen::Map<const Vec<Dim>>(fields_->updated_of(node[c * lane_count + lane]));
+        velocity /= corners;
+        for (int c = 0; c < corners; ++c) {
+          const LocalIndex corner = node[c * lane_count + lane];
+          const double share = added[lane] / corners;
+          fields_->mass_of(corner) += share;
+          for (int d = 0; d < Dim; ++d) momentum_of(corner)[d] += share * velocity[d];
+        }
+      }
     }
   }
-  halo_->sum(std::array{fields_->mass_column()});
+  halo_->sum(std::array{fields_->mass_column(), fields_->momentum_column()});
   for (LocalIndex node = 0; node < nodes_->size(); ++node) {
     double& mass = fields_->mass_of(node);
+    const double added = mass;
     mass += first_masses_[std::size_t(node)];
     const double more = mass - before[std::size_t(node)];
-    if (more == 0) continue;
-    // Mass that comes is at rest, and mass that goes takes its velocity along: neither heats.
+    // Mass that comes moves as its cells do, and mass that goes takes its velocity along: neither
+    // heats, and neither slows what moves as a whole.
+    const double share = more > 0 ? more / mass : 0.0;
     double* u = fields_->updated_of(node);
-    const double slower = more > 0 ? before[std::size_t(node)] / mass : 1.0;
     for (int d = 0; d < Dim; ++d) {
       const double was = u[d];
-      u[d] *= slower;
-      fields_->momentum_column()
-          .values[std::size_t(node) * NodeFields<Dim>::record_width + std::size_t(d)] = mass * u[d];
+      if (share > 0) u[d] += share * (momentum_of(node)[d] / added - was);
+      momentum_of(node)[d] = mass * u[d];
       if (!nodes_->is_owned(node)) continue;
       given_.impulse[d] += mass * u[d] - before[std::size_t(node)] * was;
       given_.work += 0.5 * (mass * u[d] * u[d] - before[std::size_t(node)] * was * was);
