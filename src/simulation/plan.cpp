@@ -138,7 +138,8 @@ void plan_mesh(const Preparation<Dim>& preparation, Plan& plan)
   for (Plan::Particles& body : plan.bodies)
     body.columns.insert(body.columns.end(),
                         {{"corners", corners * int(sizeof(LocalIndex))},
-                         {"corner_forces", corners * Dim * int(sizeof(double))}});
+                         {"corner_forces", corners * Dim * int(sizeof(double))},
+                         {"corner_bounds", 2 * int(sizeof(double))}});
   PassOutline& pass = plan.passes.emplace_back();
   pass.name = "cells";
   pass.sums = {"force"};
