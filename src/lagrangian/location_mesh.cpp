@@ -74,7 +74,7 @@ class Lattice {
   /// apart.
   int first_body(const IndexVec<Dim>& corner, const IndexVec<Dim>& cell) const
   {
-    if (!pairs_.any_apart()) return 0;
+    if (!pairs_.any_apart()) return 0;  // and no cell is looked up
     const int body = occupant_of_(cell).body;
     return std::countr_zero(pairs_.joined(bodies_around(corner), pairs_.bit_of(body)));
   }
@@ -102,6 +102,7 @@ class Lattice {
   }
   unsigned bodies_around(const IndexVec<Dim>& corner) const
   {
+    if (!pairs_.any_apart()) return pairs_.bit_of(0);
     unsigned around = 0;
     for (int c = 0; c < LocationMesh<Dim>::corners; ++c)
       if (const Occupant occupant =

@@ -7,10 +7,9 @@
 #include <mpm/parallel/session.hpp>
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
+
+#include "sums_of_bodies.hpp"
 
 namespace mpm {
 
@@ -116,57 +115,9 @@ class Bricks {
     stepper_->check();
   }
 
-  struct Found {
-    std::vector<double> places;  ///< of all cells, by id
-    double energy = 0, stored = 0, work = 0, bending = 0, overlapped = 0;
-    GlobalIndex pairs = 0;
-    Vec<3> momentum = Vec<3>::Zero(), impulse = Vec<3>::Zero();
-  };
+  using Found = SumsOfBodies<3>;
   /// Collective.
-  Found found()
-  {
-    Found found;
-    found.places.assign(std::size_t(3 * cells_), 0.0);
-    std::array<double, 11> sums{};
-    const auto take = [&](const Reaction<3>& reaction) {
-      sums[1] += reaction.work;
-      for (int d = 0; d < 3; ++d) sums[std::size_t(2 + d)] += reaction.impulse[d];
-    };
-    for (const Body<3>& body : stepper_->bodies()) {
-      for (LocalIndex p = 0; p < body.particles.size(); ++p)
-        for (int d = 0; d < 3; ++d)
-          found.places[std::size_t(3 * body.particles.ids()[std::size_t(p)] + d)] =
-              body.particles.motion()(d, p);
-      const int work = body.particles.state().find("plastic_work");
-      for (LocalIndex b = 0; b < body.particles.blocks(); ++b) {
-        const double* state = body.particles.state().block(b);
-        sums[0] += stdx::reduce(body.law->elastic_energy(state));
-        if (work >= 0) sums[0] += stdx::reduce(load(state + work * lane_count));
-      }
-    }
-    const Carried<3> carried = stepper_->carried();
-    sums[0] += carried.elastic_energy + carried.contact->energy;
-    sums[10] = carried.kinetic_energy;
-    sums[8] = carried.elastic_energy;
-    sums[9] = carried.contact->overlapped_area;
-    found.pairs = carried.contact->pairs;
-    for (int d = 0; d < 3; ++d) sums[std::size_t(5 + d)] = carried.momentum[d];
-    take(stepper_->take_reaction());
-    for (const auto& condition : stepper_->slots().conditions) take(condition->take_reaction());
-    sum_over_ranks(comm_, sums);
-    sum_over_ranks(comm_, found.places);
-    sum_over_ranks(comm_, std::span(&found.pairs, 1));
-    found.stored = sums[0];
-    found.energy = sums[0] + sums[10];
-    found.work = sums[1];
-    found.bending = sums[8];
-    found.overlapped = sums[9];
-    for (int d = 0; d < 3; ++d) {
-      found.impulse[d] = sums[std::size_t(2 + d)];
-      found.momentum[d] = sums[std::size_t(5 + d)];
-    }
-    return found;
-  }
+  Found found() { return {comm_, *stepper_, cells_}; }
   double mass() const { return double(cells_) * density * size.prod(); }
 
  private:
@@ -174,12 +125,5 @@ class Bricks {
   GlobalIndex cells_ = 0;
   std::unique_ptr<TotalLagrangian<3>> stepper_;
 };
-
-inline double largest_difference(const std::vector<double>& a, const std::vector<double>& b)
-{
-  double largest = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::abs(a[k] - b[k]));
-  return largest;
-}
 
 }  // namespace mpm

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 
+#include "sums_of_bodies.hpp"
 #include <gtest/gtest.h>
 
 namespace mpm {
@@ -123,57 +124,9 @@ class Ring {
     stepper_->check();
   }
 
-  struct Found {
-    std::vector<double> places;  ///< x and y of all cells, by id
-    double energy = 0, work = 0;
-    Vec<2> momentum = Vec<2>::Zero(), impulse = Vec<2>::Zero();
-    GlobalIndex pairs = 0;
-    double overlapped = 0;
-  };
+  using Found = SumsOfBodies<2>;
   /// Collective.
-  Found found()
-  {
-    Found found;
-    found.places.assign(std::size_t(2 * cells_), 0.0);
-    std::array<double, 8> sums{};
-    for (const Body<2>& body : stepper_->bodies()) {
-      for (LocalIndex p = 0; p < body.particles.size(); ++p)
-        for (int d = 0; d < 2; ++d)
-          found.places[std::size_t(2 * body.particles.ids()[std::size_t(p)] + d)] =
-              body.particles.motion()(d, p);
-      const int work = body.particles.state().find("plastic_work");
-      for (LocalIndex b = 0; b < body.particles.blocks(); ++b) {
-        const double* state = body.particles.state().block(b);
-        sums[0] += stdx::reduce(body.law->elastic_energy(state));
-        if (work >= 0) sums[0] += stdx::reduce(load(state + work * lane_count));
-      }
-    }
-    const Carried<2> carried = stepper_->carried();
-    const Reaction<2> own = stepper_->take_reaction();
-    sums[3] += own.work;
-    sums[4] += own.impulse[0];
-    sums[5] += own.impulse[1];
-    sums[0] += carried.kinetic_energy + carried.elastic_energy + carried.contact->energy;
-    sums[1] = carried.momentum[0];
-    sums[2] = carried.momentum[1];
-    for (const auto& condition : stepper_->slots().conditions) {
-      const Reaction<2> reaction = condition->take_reaction();
-      sums[3] += reaction.work;
-      sums[4] += reaction.impulse[0];
-      sums[5] += reaction.impulse[1];
-    }
-    sums[6] = carried.contact->overlapped_area;
-    found.pairs = carried.contact->pairs;
-    sum_over_ranks(comm_, sums);
-    sum_over_ranks(comm_, found.places);
-    sum_over_ranks(comm_, std::span(&found.pairs, 1));
-    found.energy = sums[0];
-    found.momentum = {sums[1], sums[2]};
-    found.work = sums[3];
-    found.impulse = {sums[4], sums[5]};
-    found.overlapped = sums[6];
-    return found;
-  }
+  Found found() { return {comm_, *stepper_, cells_}; }
   double mass() const { return double(cells_) * density * size.prod(); }
 
  private:
@@ -181,13 +134,6 @@ class Ring {
   GlobalIndex cells_ = 0;
   std::unique_ptr<TotalLagrangian<2>> stepper_;
 };
-
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b)
-{
-  double largest = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) largest = std::max(largest, std::abs(a[k] - b[k]));
-  return largest;
-}
 
 TEST(TotalLagrangian, FliesWithoutEffect)
 {
