@@ -45,6 +45,12 @@ bool is_wall(int i, int j)
   return i < 2 || i >= 22 || j < 2 || j >= 18 || (i >= 11 && i < 13);
 }
 
+/// A U of two long legs of the same thickness, 36 locations apart.
+bool is_hairpin(int i, int j)
+{
+  return j < 2 || i < 2 || i >= 38;
+}
+
 struct Scene {
   int first_x = 6, first_y = 6;  ///< locations
   Vec<2> velocity = Vec<2>::Zero();
@@ -53,6 +59,8 @@ struct Scene {
   bool pressed = false;  ///< between two walls that come together
   bool periodic = false;
   bool fitted = false;  ///< corners stand beside the lattice at rest
+  /// m/s, of the tips of a hairpin's legs towards each other; 0: a ring.
+  double folding = 0;
 };
 
 /// Of every corner of the lattice, up to a third of a location; alike at both ends of a period.
@@ -81,11 +89,13 @@ class Ring {
                         {"velocity", "mass", "initial_volume", "plastic_work"});
     setup.bodies.push_back({"ring", 0, density, std::move(law), std::move(store)});
     Body<2>& body = setup.bodies.back();
+    const bool folds = scene.folding > 0;
+    const int wide = folds ? 40 : 24, high = folds ? 26 : 20;
     const Vec<2> middle(12 * size[0], 10 * size[1]);
     GlobalIndex id = 0;
-    for (int j = 0; j < 20; ++j)
-      for (int i = 0; i < 24; ++i) {
-        if (!is_wall(i, j)) continue;
+    for (int j = 0; j < high; ++j)
+      for (int i = 0; i < wide; ++i) {
+        if (!(folds ? is_hairpin(i, j) : is_wall(i, j))) continue;
         const GlobalIndex number = id++;
         const IndexVec<2> at(scene.first_x + i, (scene.first_y + j) % 32);
         const IndexVec<2> home(at[0] / 2, at[1] / 2);
@@ -94,7 +104,8 @@ class Ring {
         ColumnGroup& motion = body.particles.motion();
         const Vec<2> from_middle((i + 0.5) * size[0] - middle[0], (j + 0.5) * size[1] - middle[1]);
         const std::array<double, 5> values{(at[0] + 0.5) * size[0], (at[1] + 0.5) * size[1],
-                                           scene.velocity[0] - scene.turning * from_middle[1],
+                                           scene.velocity[0] - scene.turning * from_middle[1] +
+                                               scene.folding * j / high * (i < wide / 2 ? 1 : -1),
                                            scene.velocity[1] + scene.turning * from_middle[0],
                                            density * size.prod()};
         for (int c = 0; c < 5; ++c) motion(c, p) = values[std::size_t(c)];
@@ -196,6 +207,26 @@ TEST(TotalLagrangian, CrushesCellsOfAnyShapeOnAnyRanks)
   const Ring::Found now = together.found();
   EXPECT_LT(largest_difference(now.places, alone.found().places), 1e-9 * cell);
   EXPECT_NEAR((now.energy - first.energy) / now.work, 1, 5e-3);
+}
+
+/// Legs at either end of the specimen, on ranks that have no border in common where there are three
+/// in a row, meet with their tips.
+TEST(TotalLagrangian, FoldsPartsTogetherThatWereMoreThanHalfASpecimenApartOnAnyRanks)
+{
+  const Scene scene{.first_x = 4, .first_y = 3, .yield = YieldConstants{30e6, 0}, .folding = 120};
+  Ring together(MPI_COMM_WORLD, scene), alone(MPI_COMM_SELF, scene);
+  for (int k = 0; k < 20 && alone.found().pairs == 0; ++k) {
+    EXPECT_EQ(together.found().pairs, 0);
+    together.advance(200);
+    alone.advance(200);
+  }
+  together.advance(100);
+  alone.advance(100);
+  const Ring::Found one = alone.found(), now = together.found();
+  EXPECT_GT(one.pairs, 0);
+  EXPECT_EQ(now.pairs, one.pairs);
+  EXPECT_NEAR(now.energy / one.energy, 1, 1e-9);
+  EXPECT_LT(largest_difference(now.places, one.places), 1e-9 * cell);
 }
 
 TEST(TotalLagrangian, TakesUpWhatWasSavedToTheLastBit)
