@@ -1,0 +1,151 @@
+// Two plates of cells, two thick, at any angle to the lattice, are driven against each other: they
+// turn back where their faces meet, or their teeth.
+#include <mpm/lagrangian/total_lagrangian.hpp>
+#include <mpm/simulation/method.hpp>
+#include <mpm/simulation/model.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "whole_scene.hpp"
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace mpm {
+namespace {
+
+constexpr double location = 0.5e-3, length = 50 * location, thickness = 2 * location;
+constexpr double density = 1000, wave = 1160.24;  ///< kg/m^3; m/s, of the fastest
+
+struct Meeting {
+  double angle;  ///< of the plates to the lattice, degrees
+  double apart;  ///< at the start, in locations
+  double slide;  ///< speed along the faces over that across them
+  const char* surface;
+};
+
+/// A rectangle along the faces with its lower side at `height` above the middle of the scene, m.
+std::string plate(const Meeting& meeting, double height, double across, const char* name)
+{
+  const double angle = meeting.angle * std::numbers::pi / 180, half = 0.5 * length;
+  const Vec<2> along(std::cos(angle), std::sin(angle)), up(-along[1], along[0]);
+  std::string corners;
+  for (const auto& [x, y] : {std::pair{-half, height},
+                             {half, height},
+                             {half, height + thickness},
+                             {-half, height + thickness}}) {
+    const Vec<2> at = Vec<2>::Constant(40 * location) + x * along + y * up;
+    corners += fmt::format("{}[{} m, {} m]", corners.empty() ? "" : ", ", at[0], at[1]);
+  }
+  const Vec<2> velocity = across * (up + meeting.slide * along);
+  return fmt::format(
+      "    - {{polygon: {{vertices: [{}]}}, material: {}, velocity: [{} m/s, {} m/s]}}\n", corners,
+      name, velocity[0], velocity[1]);
+}
+
+std::string text_of(const Meeting& meeting)
+{
+  constexpr double speed = 0.01 * wave;
+  const double half = 0.5 * meeting.apart * location;
+  std::string text = "materials:\n";
+  for (const char* name : {"lower", "upper"})
+    text += fmt::format(
+        "  - {{name: {}, law: isotropic, youngs_modulus: 1 GPa, poisson_ratio: 0.3, "
+        "density: 1000 kg/m^3}}\n",
+        name);
+  text += fmt::format("specimen:\n  size: [{0} m, {0} m]\n  shapes:\n", 80 * location);
+  text += plate(meeting, -half - thickness, speed, "lower") + plate(meeting, half, -speed, "upper");
+  return text + fmt::format(
+                    "grid: {{cells: [40, 40]}}\nnumerics: {{formulation: total_lagrangian, "
+                    "surface: {}}}\nfree_motion: {{end_time: 1 ms}}\noutput: {{snapshots: 0}}\n",
+                    meeting.surface);
+}
+
+/// Mean places across and areas of the two plates.
+struct Faces {
+  std::array<double, 2> place{}, area{};
+
+  Faces(const Formulation<2>& formulation, double angle)
+  {
+    const Vec<2> up(-std::sin(angle), std::cos(angle));
+    for (std::size_t b = 0; b < 2; ++b) {
+      const ParticleStore& particles = formulation.bodies()[b].particles;
+      const int mass = particles.motion().find("mass");
+      for (LocalIndex p = 0; p < particles.size(); ++p) {
+        const double m = particles.motion()(mass, p);
+        area[b] += m / density;
+        place[b] +=
+            m / density * up.dot(Vec<2>(particles.motion()(0, p), particles.motion()(1, p)));
+      }
+      place[b] /= area[b];
+    }
+  }
+  /// Between the mean faces, in locations.
+  double gap() const
+  {
+    return (place[1] - place[0] - 0.5 * (area[0] + area[1]) / length) / location;
+  }
+};
+
+/// The smallest gap at any time.
+double closest(const Meeting& meeting)
+{
+  const scene::Scene scene = scene_of(text_of(meeting));
+  const Preparation<2> preparation(MPI_COMM_WORLD, scene, std::nullopt);
+  const Decomposition<2> decomposition(MPI_COMM_WORLD, preparation.partition.ownership);
+  const auto formulation =
+      make_formulation(scene, preparation.layout, decomposition,
+                       make_model(scene, preparation.specimen, preparation.layout, decomposition));
+  const double angle = meeting.angle * std::numbers::pi / 180;
+  const double dt = time_step_of(preparation.layout).first();
+  double gap = Faces(*formulation, angle).gap(), before = gap;
+  for (bool approach = true; approach;) {
+    for (int k = 0; k < 5; ++k) formulation->step(dt);
+    const double now = Faces(*formulation, angle).gap();
+    approach = now < before;
+    gap = std::min(gap, now);
+    before = now;
+  }
+  return gap;
+}
+
+/// Less the depth, 1 % of the fastest wave's speed brings them 0.01 to 0.03 into each other.
+constexpr double depth = 0.03;
+
+TEST(Plates, AlongTheLatticeTurnBackWhereTheirFacesMeet)
+{
+  for (const char* surface : {"stairs", "fitted"})
+    for (const double apart : {2.5, 3.3})
+      for (const double slide : {0.0, 0.3}) {
+        const double gap = closest({0, apart, slide, surface});
+        EXPECT_LT(gap, 0) << surface << ", " << apart << ", " << slide;
+        EXPECT_GT(gap, -depth) << surface << ", " << apart << ", " << slide;
+      }
+}
+
+/// Stairs have teeth as high as half the diagonal that a location has across the face, and two
+/// plates meet with their tips where these come to lie on each other. Corners on the surface cannot
+/// take away all of it: 0.16 of a location is left on either side.
+TEST(Plates, AcrossTheLatticeTurnBackWhereTheirTeethMeet)
+{
+  for (const double angle : {15.0, 30.0, 45.0}) {
+    const double radians = angle * std::numbers::pi / 180;
+    double sum[2] = {0, 0};
+    for (const double apart : {2.5, 2.9, 3.3, 3.7})
+      for (const double slide : {0.0, 0.3}) {
+        const double stairs = closest({angle, apart, slide, "stairs"}),
+                     fitted = closest({angle, apart, slide, "fitted"});
+        for (const double gap : {stairs, fitted}) EXPECT_GT(gap, -depth) << angle << ", " << apart;
+        EXPECT_LT(stairs, std::sin(radians) + std::cos(radians)) << angle << ", " << apart;
+        EXPECT_LT(fitted, 0.33) << angle << ", " << apart;
+        sum[0] += stairs / 8;
+        sum[1] += fitted / 8;
+      }
+    std::printf("%g degrees: mean gap %.2f with stairs, %.2f fitted\n", angle, sum[0], sum[1]);
+    EXPECT_LT(sum[1], 0.6 * sum[0]) << angle;
+  }
+}
+
+}  // namespace
+}  // namespace mpm
