@@ -115,18 +115,6 @@ void RigidBody<Dim>::constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>
   }
 }
 
-/// Nodes on the body and inside it stick to it.
-template <int Dim>
-void RigidBody<Dim>::stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
-                          double dt)
-{
-  find_nodes(nodes, time);
-  for (const LocalIndex node : found_)
-    for (int d = 0; d < Dim; ++d)
-      this->drive(fields, node, nodes.is_owned(node), d,
-                  (motion_[d].displacement(time + dt) - motion_[d].displacement(time)) / dt);
-}
-
 template class RigidBody<2>;
 template class RigidBody<3>;
 

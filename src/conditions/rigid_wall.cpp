@@ -1,5 +1,6 @@
 #include <mpm/conditions/rigid_wall.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,12 +21,13 @@ auto places_along(const MeshNodes<Dim>& nodes, int axis)
 
 template <int Dim>
 RigidWall<Dim>::RigidWall(const WallPlacement& placement, const WallMotion& motion, WallGrip grip,
-                          ReactionBook book, const WallStiffness<Dim>& stiffness)
+                          ReactionBook book, const WallStiffness<Dim>& stiffness, double friction)
     : BoundaryCondition<Dim>(book),
       placement_(placement),
       motion_(motion),
       grip_(grip),
-      stiffness_(stiffness)
+      stiffness_(stiffness),
+      friction_(friction)
 {
 }
 
@@ -95,6 +97,7 @@ void RigidWall<Dim>::find_near(const MeshNodes<Dim>& nodes, double face)
   near_ = Near{nodes.way(), face, {}, {}};
   const auto at = places_along(nodes, axis);
   for (LocalIndex node = 0; node < nodes.size(); ++node) {
+    if (nodes.is_led(node)) continue;
     const bool held = grip_ != WallGrip::contact &&
                       std::abs(nodes.rest(node, axis) - placement_.position) < 1e-9 * reach;
     if (held)
@@ -102,6 +105,21 @@ void RigidWall<Dim>::find_near(const MeshNodes<Dim>& nodes, double face)
     else if (side * (at(node) - face) > -reach)
       near_->nodes.push_back(node);
   }
+}
+
+/// Coulomb: of its momentum along the face a node loses what it lost across it, `taken` (m/s) over
+/// its mass, times the coefficient; all of it at most.
+template <int Dim>
+void RigidWall<Dim>::rub(NodeFields<Dim>& fields, LocalIndex node, bool owned, double taken)
+{
+  const double* u = fields.updated_of(node);
+  double squared = 0;
+  for (int d = 0; d < Dim; ++d)
+    if (d != placement_.axis) squared += u[d] * u[d];
+  if (!(squared > 0)) return;
+  const double kept = std::max(0.0, 1 - friction_ * taken / std::sqrt(squared));
+  for (int d = 0; d < Dim; ++d)
+    if (d != placement_.axis) friction_work_ -= this->drive(fields, node, owned, d, kept * u[d]);
 }
 
 /// Nodes that stood at the face are held by a wall with a grip; all others meet it one-sidedly, and
@@ -123,8 +141,12 @@ void RigidWall<Dim>::stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, 
         this->drive(fields, node, owned, d, 0);
   };
   for (const LocalIndex node : near_->held) put_to_face(node);
-  for (const LocalIndex node : near_->nodes)
-    if (side * (at(node) + dt * fields.updated_of(node)[axis] - face) > 0) put_to_face(node);
+  for (const LocalIndex node : near_->nodes) {
+    const double beyond = side * (at(node) + dt * fields.updated_of(node)[axis] - face);
+    if (!(beyond > 0)) continue;
+    put_to_face(node);
+    if (friction_ > 0) rub(fields, node, nodes.is_owned(node), beyond / dt);
+  }
 }
 
 template <int Dim>
@@ -189,6 +211,7 @@ void RigidWall<Dim>::archive(Archive& archive)
 {
   BoundaryCondition<Dim>::archive(archive);
   if (pushes()) archive.value("push", push_);
+  if (rubs()) archive.value("friction_work", friction_work_);
 }
 
 template class RigidWall<2>;

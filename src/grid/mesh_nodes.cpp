@@ -23,6 +23,13 @@ MeshNodes<Dim>::MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> 
 }
 
 template <int Dim>
+void MeshNodes<Dim>::lead(LocalIndex node)
+{
+  led_.resize(owned_.size(), 0);
+  led_[std::size_t(node)] = 1;
+}
+
+template <int Dim>
 Vec<Dim> MeshNodes<Dim>::position(LocalIndex node) const
 {
   Vec<Dim> position;
@@ -78,7 +85,8 @@ void MeshNodes<Dim>::archive(Archive& archive)
 template <int Dim>
 std::size_t MeshNodes<Dim>::bytes() const
 {
-  return owned_.size() * (sizeof(char) + sizeof(IndexVec<Dim>)) + places_.size() * sizeof(double);
+  return owned_.size() * (sizeof(char) + sizeof(IndexVec<Dim>)) + led_.size() * sizeof(char) +
+         places_.size() * sizeof(double);
 }
 
 template class MeshNodes<2>;

@@ -113,11 +113,14 @@ void OverlapContact<Dim>::list_touches()
   });
 }
 
-/// dW/ds_d = S_c V0 (H(T_d) + sum over d and its neighbours e of s_e H'(T_e)).
+/// dW/ds_d = S_c V0 (H(T_d) + sum over d and its neighbours e of s_e H'(T_e)); with the stiffness
+/// of d and e in place of S_c where c is rigid.
 template <int Dim>
 void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touch> touches)
 {
   const std::size_t count = touches.size();
+  const bool rigid = is_rigid(LocalIndex(cell));
+  const double stiffness = rigid ? 1.0 : stiffness_[cell];
   parts_.resize(count);
   beside_.resize(count * count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -138,9 +141,10 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
     Part& part = parts_[k];
     const double together = add_beside(k, &Part::share);
     const OverlapPotential potential(together);
-    part.own = potential.part;
-    part.change = part.share * potential.slope;
-    energy_ += stiffness_[cell] * cell_volume_ * part.share * part.own;
+    const double of_other = rigid ? stiffness_[std::size_t(touches[k].other)] : 1.0;
+    part.own = of_other * potential.part;
+    part.change = of_other * part.share * potential.slope;
+    energy_ += stiffness * cell_volume_ * part.share * part.own;
     if (!(together > 0)) continue;
     const auto grow = [&](std::vector<double>& largest, double now) {
       double& of_side = largest[std::size_t(touches[k].side)];
@@ -152,7 +156,7 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
   }
   for (std::size_t k = 0; k < count; ++k)
     sides_[std::size_t(touches[k].side)] =
-        stiffness_[cell] * (parts_[k].own + add_beside(k, &Part::change));
+        stiffness * (parts_[k].own + add_beside(k, &Part::change));
 }
 
 /// Whether cells are so near in the lattice that what a third one presses them with adds up.
@@ -194,6 +198,7 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
       pressed[std::size_t(pairs_[k].second)] += parts_of_face_[other] * both;
   }
   for (std::size_t c = 0; c < cells_.size(); ++c) {
+    if (is_rigid(LocalIndex(c))) continue;
     const double harder = (1 + 2 * kappa_ * pressed[c]) / (1 + 2 * kappa_ * borne);
     if (harder > 1)
       least_stretches[std::size_t(cells_[c].body)][std::size_t(cells_[c].particle)] /= harder;

@@ -31,6 +31,7 @@ bool OverlapContact<Dim>::can_meet(LocalIndex own, LocalIndex other) const
 {
   const OpenCorners<Dim>& open = open_[std::size_t(own)];
   if (open.is_behind() && open_[std::size_t(other)].is_behind()) return false;
+  if (is_rigid(own) && is_rigid(other)) return false;
   if (bodies_.are_apart(of_body_[std::size_t(own)], of_body_[std::size_t(other)])) return true;
   const IndexVec<Dim> apart = this->apart(own, other);
   if (apart.cwiseAbs().maxCoeff() > 1) return true;

@@ -44,6 +44,7 @@ void TotalLagrangian<Dim>::step(double dt)
   fields_->update_velocity(runs(), between);
   for (const auto& condition : setup_.slots.conditions)
     condition->stop(*nodes_, *fields_, time_, dt);
+  lead_rigid_bodies(dt);
   setup_.slots.loads.book(*nodes_, runs(), *fields_, between);
   book_friction(between);
   largest_speed_ = std::max(largest_speed_, nodes_->move(*fields_, dt));
@@ -70,7 +71,7 @@ Carried<Dim> TotalLagrangian<Dim>::carried() const
 {
   Carried<Dim> carried;
   for (LocalIndex node = 0; node < nodes_->size(); ++node) {
-    if (!nodes_->is_owned(node)) continue;
+    if (!nodes_->is_owned(node) || is_rigid(node)) continue;
     const double mass = fields_->mass_of(node);
     const double* u = &fields_->updated[std::size_t(node) * NodeFields<Dim>::record_width];
     const Eigen::Map<const Vec<Dim>> velocity(u);
@@ -83,7 +84,20 @@ Carried<Dim> TotalLagrangian<Dim>::carried() const
   if (contact_)
     carried.contact = {contact_->energy(), contact_->overlapped_area(), contact_->touching(),
                        friction_work_};
+  for (const auto& condition : setup_.slots.conditions) {
+    if (!condition->rubs()) continue;
+    if (!carried.contact) carried.contact.emplace();
+    carried.contact->friction_work += condition->friction_work();
+  }
   return carried;
+}
+
+template <int Dim>
+bool TotalLagrangian<Dim>::has_friction()
+{
+  return setup_.pairs.any() ||
+         std::ranges::any_of(setup_.slots.conditions,
+                             [](const auto& condition) { return condition->rubs(); });
 }
 
 template <int Dim>

@@ -71,21 +71,28 @@ void TotalLagrangian<Dim>::make_mesh()
   std::vector<IndexVec<Dim>> cells;
   std::map<LocationKey<Dim>, Occupant> taken;
   std::vector<double> at_borders;
-  for (int b = 0; b < int(setup_.bodies.size()); ++b)
-    for (LocalIndex p = 0; p < setup_.bodies[std::size_t(b)].particles.size(); ++p) {
-      const IndexVec<Dim> location = location_of(setup_.bodies[std::size_t(b)], p);
-      cells.push_back(location);
-      taken[key_of<Dim>(location)] = {me, b};
-      bool at_border = false;
-      const IndexVec<Dim> below = (location.array() - 2).matrix(),
-                          above = (location.array() + 2).matrix();
-      for_each_index(
-          IndexBox<Dim>{cell_of(below), (cell_of(above).array() + 1).matrix()},
-          [&](const IndexVec<Dim>& cell) { at_border = at_border || owner_of(cell) != me; });
-      if (!at_border) continue;
-      at_borders.insert(at_borders.end(), location.begin(), location.end());
-      at_borders.push_back(b);
-    }
+  const auto add = [&](const IndexVec<Dim>& location, int body) {
+    cells.push_back(location);
+    taken[key_of<Dim>(location)] = {me, body};
+    bool at_border = false;
+    const IndexVec<Dim> below = (location.array() - 2).matrix(),
+                        above = (location.array() + 2).matrix();
+    for_each_index(
+        IndexBox<Dim>{cell_of(below), (cell_of(above).array() + 1).matrix()},
+        [&](const IndexVec<Dim>& cell) { at_border = at_border || owner_of(cell) != me; });
+    if (!at_border) return;
+    at_borders.insert(at_borders.end(), location.begin(), location.end());
+    at_borders.push_back(body);
+  };
+  int number = 0;
+  for (const Body<Dim>& body : setup_.bodies) {
+    for (LocalIndex p = 0; p < body.particles.size(); ++p) add(location_of(body, p), number);
+    ++number;
+  }
+  for (const RigidCells<Dim>& rigid : setup_.rigid) {
+    for (const IndexVec<Dim>& location : rigid.locations) add(location, number);
+    ++number;
+  }
   const MPI_Comm comm = decomposition_.comm();
   const std::vector<double> all = joined_over_ranks(comm, at_borders);
   for (std::size_t k = 0; k < all.size(); k += Dim + 1) {
@@ -111,6 +118,7 @@ void TotalLagrangian<Dim>::make_mesh()
     cells_.emplace_back(body, std::span(mesh.cells).subspan(first, count), setup_.location_size);
     first += count;
   }
+  take_rigid_bodies(std::span(mesh.cells).subspan(first));
   if (!setup_.offsets.empty()) take_rest();
   least_stretches_.resize(cells_.size());
   if constexpr (Dim == 2) list_node_terms();
@@ -179,6 +187,7 @@ void TotalLagrangian<Dim>::add_masses()
       }
   }
   halo_->sum(std::array{fields_->mass_column(), fields_->momentum_column()});
+  give_rigid_mass();
   for (LocalIndex node = 0; node < nodes_->size(); ++node) {
     first_masses_.push_back(fields_->mass_of(node));
     for (int d = 0; d < Dim; ++d)

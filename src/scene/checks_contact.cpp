@@ -14,16 +14,22 @@ void check_names(const Checked& checked, const std::string& key,
     return checked.refuse(key, "contact is between two bodies", "Name two materials");
   const std::vector<std::string> names = checked.material_names();
   if (names.empty()) return;
+  const auto is_rigid = [&](auto name) {
+    const auto index = std::size_t(name - names.begin());
+    return index < checked.scene.materials.size() &&
+           !checked.scene.materials[index].law->deformable();
+  };
   for (std::size_t k = 0; k < between.size(); ++k) {
     const std::string path = fmt::format("{}[{}]", key, k);
     const auto found = std::ranges::find(names, between[k]);
     if (found == names.end())
       checked.refuse(path, "no material has this name", "Use " + alternatives(names));
-    else if (const std::size_t index = std::size_t(found - names.begin());
-             index < checked.scene.materials.size() &&
-             !checked.scene.materials[index].law->deformable())
+    else if (is_rigid(found) && !of_cells)
       checked.refuse(path, "it is rigid: all bodies stick to it",
-                     "Give it a law that can be deformed");
+                     "Give it a law that can be deformed, or use formulation: total_lagrangian");
+    else if (k == 1 && is_rigid(found) && is_rigid(std::ranges::find(names, between[0])))
+      checked.refuse(path, "rigid bodies do not meet each other",
+                     "Name a body that can be deformed");
     else if (k == 1 && between[0] == between[1] && !of_cells)
       checked.refuse(path, "a body moves in one velocity field and cannot touch itself",
                      "Name another material, or use formulation: total_lagrangian");

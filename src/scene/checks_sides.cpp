@@ -46,12 +46,28 @@ void check_moving_sides(const Checked& checked, const FreeMotion& motion)
   }
 }
 
+/// Walls that push particles know no friction.
+void check_friction_of_walls(const Checked& checked)
+{
+  const auto refuse = [&](const std::string& path, double friction) {
+    if (friction > 0)
+      checked.refuse(path, "particles slide on walls that push them",
+                     "Leave it out, or use formulation: total_lagrangian");
+  };
+  if (const auto* loading = std::get_if<Loading>(&checked.scene.motion))
+    return refuse("loading.friction", loading->friction);
+  const auto& sides = std::get<FreeMotion>(checked.scene.motion).moving_sides;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    refuse(fmt::format("free_motion.moving_sides[{}].friction", i), sides[i].friction);
+}
+
 /// What walls that push particles need of the method.
 void check_pushing_walls(const Checked& checked)
 {
   const Numerics& numerics = checked.scene.numerics;
   const std::string stiffness = "numerics.contact_stiffness", order = "numerics.update_order";
   if (numerics.formulation == FormulationKind::total_lagrangian) return;
+  check_friction_of_walls(checked);
   if (!walls_push(checked.scene))
     return checked.refuse(stiffness, "nothing is in contact",
                           "Leave it out, or use grip: contact or formulation: total_lagrangian");

@@ -128,6 +128,10 @@ const std::vector<Parameter<Loading>>& parameters<Loading>()
       member<L>(
           "grip", &L::grip, {},
           "of the piston and of the fixed edge opposite; contact: they push, and hold nothing"),
+      member<L>("friction", &L::friction, {.bound = at_least(0)},
+                "on piston and fixed edge, largest tangential over normal force; with "
+                "formulation: total_lagrangian")
+          .when({[](const L& l) { return l.grip == Grip::contact; }, "grip: contact"}),
       member<L>(
           "lateral", &L::lateral, {.spread = true},
           "the sides along the travel: lower (or left), upper (or right); in space of the first, "
@@ -174,6 +178,9 @@ const std::vector<Parameter<MovingSide>>& parameters<MovingSide>()
       member<M>("side", &M::side, {.need = Need::required}, "where the wall stands at the start"),
       member<M>("grip", &M::grip, {},
                 "whether it holds what it touches, along its face too; contact: it pushes only"),
+      member<M>("friction", &M::friction, {.bound = at_least(0)},
+                "on it, largest tangential over normal force; with formulation: total_lagrangian")
+          .when({[](const M& m) { return m.grip == Grip::contact; }, "grip: contact"}),
       member<M>("table", &M::table, {.quantity = Quantity::velocity, .need = Need::required},
                 "times and velocities along the side's axis, straight lines between them, constant "
                 "before and after"),

@@ -15,12 +15,13 @@ std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
   if (is_total_lagrangian(scene.numerics)) {
     std::vector<std::string> names;
     for (const Body<Dim>& body : model.bodies) names.push_back(body.name);
+    for (const RigidCells<Dim>& rigid : model.rigid) names.push_back(rigid.name);
     return std::make_unique<TotalLagrangian<Dim>>(
-        decomposition,
-        typename TotalLagrangian<Dim>::Setup{
-            std::move(model.bodies), std::move(model.slots), layout.location_size,
-            scene.numerics.thickness, contact_stiffness(scene.numerics),
-            pairs_of_bodies(scene, names), mass_scaling_of(scene), std::move(model.offsets)});
+        decomposition, typename TotalLagrangian<Dim>::Setup{
+                           std::move(model.bodies), std::move(model.slots), layout.location_size,
+                           scene.numerics.thickness, contact_stiffness(scene.numerics),
+                           pairs_of_bodies(scene, names), mass_scaling_of(scene),
+                           std::move(model.offsets), std::move(model.rigid)});
   }
   typename UpdatedLagrangian<Dim>::Setup setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);

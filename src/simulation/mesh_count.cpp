@@ -42,9 +42,7 @@ class Lattice {
       return int(scene_.materials.size());
     if (!lattice_.part.contains(at)) return -1;
     const std::int8_t material = lattice_(at);
-    return material != lattice_.empty && scene_.materials[std::size_t(material)].law->deformable()
-               ? material
-               : -1;
+    return material != lattice_.empty ? material : -1;
   }
 
  private:

@@ -1,4 +1,3 @@
-#include <mpm/conditions/rigid_body.hpp>
 #include <mpm/core/error.hpp>
 #include <mpm/lagrangian/location_cells.hpp>
 #include <mpm/parallel/session.hpp>
@@ -6,6 +5,7 @@
 #include <mpm/simulation/fitted_surface.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/model.hpp>
+#include <mpm/simulation/rigid_bodies.hpp>
 #include <mpm/simulation/surface_marks.hpp>
 
 #include <algorithm>
@@ -72,17 +72,6 @@ class BodyFiller {
   int position_, velocity_, mass_, initial_position_;
 };
 
-/// The part of a box of locations outside of which this rank has no cells.
-template <int Dim>
-IndexBox<Dim> nearby(const IndexBox<Dim>& locations, const Layout<Dim>& layout,
-                     const Decomposition<Dim>& decomposition)
-{
-  IndexBox<Dim> near = decomposition.owned(decomposition.rank());
-  near.lower = (near.lower - layout.padding) * layout.per_cell;
-  near.upper = (near.upper - layout.padding) * layout.per_cell;
-  return intersection(locations, near);
-}
-
 template <int Dim>
 Body<Dim> empty_body(const scene::Material& material, int index, const scene::Scene& scene,
                      int particles_per_cell, const Loads<Dim>& loads)
@@ -125,26 +114,6 @@ void fill_body(Body<Dim>& body, const scene::Scene& scene, const Lattice<Dim>& l
   body.particles.seal();
 }
 
-/// Of all ranks, each of which looks at its slab. Collective.
-template <int Dim>
-std::vector<Vec<Dim>> points_of(int material, const Specimen<Dim>& specimen,
-                                const Layout<Dim>& layout, MPI_Comm comm)
-{
-  const IndexBox<Dim> own = micrograph::slab(specimen.whole(), rank_of(comm), ranks_of(comm));
-  const Lattice<Dim> lattice = specimen.lattice(own);
-  std::vector<double> coordinates;
-  std::size_t place = 0;
-  for_each_index(own, [&](const IndexVec<Dim>& at) {
-    if (lattice.material[place++] != material) return;
-    for (int d = 0; d < Dim; ++d) coordinates.push_back((at[d] + 0.5) * layout.location_size[d]);
-  });
-  const std::vector<double> all = joined_over_ranks(comm, coordinates);
-  std::vector<Vec<Dim>> points(all.size() / Dim);
-  for (std::size_t k = 0; k < points.size(); ++k)
-    for (int d = 0; d < Dim; ++d) points[k][d] = all[k * Dim + d];
-  return points;
-}
-
 WallGrip grip_of(scene::Grip grip)
 {
   switch (grip) {
@@ -172,7 +141,7 @@ void add_apparatus(const scene::Scene& scene, const Specimen<Dim>& specimen,
   const auto wall = [&](int axis, bool upper, double position, const WallMotion& motion) {
     auto made = std::make_unique<RigidWall<Dim>>(WallPlacement{axis, upper, position}, motion, grip,
                                                  reaction_book(scene.numerics),
-                                                 wall_stiffness(scene, layout));
+                                                 wall_stiffness(scene, layout), loading.friction);
     RigidWall<Dim>* pointer = made.get();
     model.slots.conditions.push_back(std::move(made));
     return pointer;
@@ -225,7 +194,7 @@ void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, const L
     model.slots.conditions.push_back(std::make_unique<RigidWall<Dim>>(
         placement_of(specimen, axis_of(side.side), upper_of(side.side)),
         WallMotion{.table = side.table}, grip_of(side.grip), reaction_book(scene.numerics),
-        wall_stiffness(scene, layout)));
+        wall_stiffness(scene, layout), side.friction));
 }
 
 /// Collective. Throws InputError on every rank for a load that finds no particle.
@@ -287,9 +256,7 @@ Model<Dim> make_model(const scene::Scene& scene, const Specimen<Dim>& specimen,
       fill_body(model.bodies.back(), scene, lattice, layout, decomposition);
       continue;
     }
-    model.slots.conditions.push_back(std::make_unique<RigidBody<Dim>>(
-        points_of(int(k), specimen, layout, decomposition.comm()), 0.5 * layout.location_size,
-        motion_of<Dim>(material), reaction_book(scene.numerics)));
+    add_rigid_body(scene, int(k), specimen, layout, decomposition, model);
   }
   if (layout.load_cell) {
     const scene::Material material = load_cell_material(scene, layout.load_cell->density_ratio);

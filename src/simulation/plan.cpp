@@ -134,12 +134,16 @@ void plan_mesh(const Preparation<Dim>& preparation, Plan& plan)
   const auto& contacts = preparation.scene.contacts;
   if (std::ranges::any_of(contacts, [](const auto& contact) { return contact.friction > 0; }))
     plan.nodes.columns.push_back({"friction", Dim * int(sizeof(double))});
+  const auto is_rigid = [](const std::string& condition) {
+    return condition.ends_with("rigid body");
+  };
+  if (std::ranges::any_of(plan.conditions, is_rigid))
+    plan.nodes.columns.push_back({"led", sizeof(char)});
   constexpr int corners = LocationMesh<Dim>::corners;
   for (Plan::Particles& body : plan.bodies)
-    body.columns.insert(body.columns.end(),
-                        {{"corners", corners * int(sizeof(LocalIndex))},
-                         {"corner_forces", corners * Dim * int(sizeof(double))},
-                         {"corner_bounds", 2 * int(sizeof(double))}});
+    body.columns.insert(body.columns.end(), {{"corners", corners * int(sizeof(LocalIndex))},
+                                             {"corner_forces", corners * Dim * int(sizeof(double))},
+                                             {"corner_bounds", 2 * int(sizeof(double))}});
   PassOutline& pass = plan.passes.emplace_back();
   pass.name = "cells";
   pass.sums = {"force"};
@@ -213,6 +217,7 @@ Plan make_plan(const Preparation<Dim>& preparation)
   Plan plan;
   plan.method = method_words(numerics, Dim);
   plan.bodies = bodies_of(preparation, preparation.layout.per_cell);
+  plan.conditions = conditions_of(preparation);
   if (is_total_lagrangian(numerics)) {
     plan_mesh(preparation, plan);
   } else {
@@ -227,7 +232,6 @@ Plan make_plan(const Preparation<Dim>& preparation)
       if (column.name != "marks") column.bytes *= fields;
     measure_messages(preparation, support, plan);
   }
-  plan.conditions = conditions_of(preparation);
   for (const scene::Load& load : scene.loads)
     plan.loads.push_back(load.kind->keyword + ": " + load.kind->help);
   plan.left_out = left_out(preparation, plan);

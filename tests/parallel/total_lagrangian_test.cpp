@@ -57,6 +57,7 @@ struct Scene {
   double turning = 0;  ///< rad/s about its middle
   std::optional<YieldConstants> yield{};
   bool pressed = false;  ///< between two walls that come together
+  double friction = 0;   ///< on these walls
   bool periodic = false;
   bool fitted = false;  ///< corners stand beside the lattice at rest
   /// m/s, of the tips of a hairpin's legs towards each other; 0: a ring.
@@ -121,7 +122,7 @@ class Ring {
         const double face = (scene.first_x + (upper ? 24 + room : -room)) * size[0];
         setup.slots.conditions.push_back(std::make_unique<RigidWall<2>>(
             WallPlacement{0, upper, face}, WallMotion{upper ? -wall_speed : wall_speed, 0},
-            WallGrip::contact, ReactionBook{}));
+            WallGrip::contact, ReactionBook{}, WallStiffness<2>{}, scene.friction));
       }
     if (scene.fitted) setup.offsets = offsets_of_all();
     stepper_ = std::make_unique<TotalLagrangian<2>>(decomposition, std::move(setup));
@@ -231,7 +232,7 @@ TEST(TotalLagrangian, FoldsPartsTogetherThatWereMoreThanHalfASpecimenApartOnAnyR
 
 TEST(TotalLagrangian, TakesUpWhatWasSavedToTheLastBit)
 {
-  const Scene scene{.yield = YieldConstants{30e6, 0}, .pressed = true};
+  const Scene scene{.yield = YieldConstants{30e6, 0}, .pressed = true, .friction = 0.3};
   Ring run(MPI_COMM_WORLD, scene), other(MPI_COMM_WORLD, scene);
   run.advance(1510);
   MemoryArchive archive;
@@ -245,6 +246,11 @@ TEST(TotalLagrangian, TakesUpWhatWasSavedToTheLastBit)
   const Ring::Found one = run.found(), two = other.found();
   EXPECT_EQ(one.places, two.places);
   EXPECT_EQ(one.energy, two.energy);
+  const double rubbed = run.stepper().carried().contact->friction_work;
+  EXPECT_EQ(rubbed, other.stepper().carried().contact->friction_work);
+  double all = rubbed;
+  sum_over_ranks(MPI_COMM_WORLD, std::span(&all, 1));
+  EXPECT_GT(all, 0);
 }
 
 TEST(TotalLagrangian, GoesOnAcrossAPeriodicSide)

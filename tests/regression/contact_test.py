@@ -69,8 +69,8 @@ class Contact(ProgramTest):
         # Two faces of 0.5 mm, overlapped by less than 6 % of a location of 25 um.
         self.assertLess(max(history["overlapped_area"]), 0.06 * 25e-6 * 0.5e-3 * 2)
 
-    def slide(self, friction, bound, *settings):
-        history = History(self.results("incline", f"contact[0].friction={friction}", *settings,
+    def slide(self, friction, bound, *settings, where="contact[0]"):
+        history = History(self.results("incline", *settings, f"{where}.friction={friction}",
                                        ranks=2, label=f"friction_{friction}_{len(settings)}"))
         pull = max(0.0, GRAVITY * (math.sin(ANGLE) - friction * math.cos(ANGLE)))
         # The smooth start is worth half its time, and 0.15 a t^2 of way.
@@ -91,6 +91,78 @@ class Contact(ProgramTest):
     def test_a_block_of_cells_slides_down_an_incline_or_stays(self):
         for friction in (0, 0.3, 1):
             self.slide(friction, 0.01, "numerics={formulation: total_lagrangian}")
+
+    def test_a_block_of_cells_slides_down_a_rigid_incline_or_stays(self):
+        """With 0.3 it begins to hop after 0.3 s: what is elastic does not slide steadily on what is
+        rigid with a constant coefficient (Adams 1995, J. Appl. Mech. 62:867)."""
+        for friction in (0, 0.1, 1):
+            self.slide(friction, 0.01, "numerics={formulation: total_lagrangian}",
+                       "materials[1]={name: slope, law: rigid}")
+
+    def test_a_block_of_cells_slides_along_a_wall_or_stays(self):
+        """As on a rigid body, with more friction it hops. Where it sticks it does not creep."""
+        for friction in (0.01, 0.1, 1):
+            self.slide(friction, 0.01, "numerics={formulation: total_lagrangian}",
+                       "specimen.shapes=[{box: {lower: [0.5 m, 0 m], upper: [1.5 m, 0.25 m]}, "
+                       "material: block}]", "free_motion.sides=[rigid, rigid, free, free]",
+                       "free_motion.moving_sides=[{side: bottom, grip: contact, table: [[0 s, 0 m/s], [1 s, 0 m/s]]}]",
+                       where="free_motion.moving_sides[0]")
+
+    def test_a_rigid_plate_presses_a_block_as_one_of_its_kind_would(self):
+        """As deep as in the block on another: the contact takes its stiffness from the block."""
+        history = History(self.results("rigid_plate", ranks=2))
+        size = 0.5e-3
+        travel = [20 * t**2 / 8e-6 for t in history["time"]]
+        errors = []
+        for before, after, less, more in zip(travel, travel[1:], history["external_work"],
+                                             history["external_work"][1:]):
+            strain = 0.5 * (before + after) / size
+            if not 0.004 <= strain <= 0.012:
+                continue
+            # The contact as in the block on another: a quarter of a location of 20 times the strain.
+            solid = strain - (0.25 * strain + 0.0025) / 20
+            stress = (more - less) / (after - before) / size
+            errors.append(stress / (-CONFINED * math.log(1 - solid) / (1 - solid)) - 1)
+        self.assertGreater(len(errors), 10)
+        self.assertAlmostEqual(sum(errors) / len(errors), 0, delta=0.005)  # it rings by 1 %
+        self.assertLess(max(abs(e) for e in history["energy_error"][10:]), 1e-3)
+        self.assertLess(max(history["momentum_error"]), 1e-12)
+
+    def punch(self, label, *settings, ranks=1):
+        history = History(self.results("punch", *settings, ranks=ranks, label=f"{label}_{ranks}"))
+        self.assertLess(max(abs(e) for e in history["energy_error"][60:]), 0.01)
+        self.assertLess(max(history["momentum_error"][60:]), 1e-12)
+        return history
+
+    def test_a_punch_of_cells_presses_alike_on_any_ranks(self):
+        """Away from the line of symmetry: there sides of cells lie on one line but for roundings, and
+        what they overlap by decides on the length of the step."""
+        for label, all_ranks, *settings in (
+                ("rubs", (2, 3, 4, 6), "contact=[{between: [wood, punch], friction: 0.2}]"),
+                ("slides", (4,), "numerics.surface=fitted"),
+                ("sticks_inside", (4,), "specimen.shapes[1].disc.centre[1]=0.6 mm")):
+            settings = ["numerics={formulation: total_lagrangian}", "grid.cells=[30, 30]",
+                        "specimen.shapes[1].disc.centre[0]=0.487 mm", *settings]
+            alone = self.punch(label, *settings)
+            for ranks in all_ranks:
+                together = self.punch(label, *settings, ranks=ranks)
+                for name in ("external_work", "elastic_energy", "contact_energy"):
+                    for one, other in zip(alone[name], together[name]):
+                        self.assertAlmostEqual(one, other, delta=1e-9 * alone["external_work"][-1])
+
+    def test_a_punch_of_cells_is_pressed_with_the_force_of_one_to_which_nodes_stick(self):
+        """Where nodes stick to it, it is felt as the grid is wide: that force comes to the other one,
+        8 and 4 % below, in the last tenth of the way."""
+        forces = {}
+        for cells in (40, 80):
+            for label, *settings in (("grid",), ("cells", "numerics={formulation: total_lagrangian, "
+                                                         "surface: fitted}")):
+                work = self.punch(f"{label}_{cells}", *settings, f"grid.cells=[{cells}, {cells}]",
+                                  ranks=2)["external_work"]
+                forces[label, cells] = work[-1] - work[-11]
+        self.assertAlmostEqual(forces["cells", 80] / forces["cells", 40], 1, delta=0.01)
+        for cells, bound in ((40, 0.12), (80, 0.04)):
+            self.assertAlmostEqual(forces["grid", cells] / forces["cells", 80], 1, delta=bound)
 
 
 if __name__ == "__main__":

@@ -102,6 +102,26 @@ TEST(MeshCount, TakesLoadsOnParticles)
                     "loads: [{kind: traction, side: left, stress: [1 MPa, 0 Pa]}]\n");
 }
 
+TEST(MeshCount, TakesRigidBodies)
+{
+  Expected(R"(
+materials:
+  - {name: block, law: isotropic, youngs_modulus: 1 MPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
+  - {name: die, law: rigid, velocity: [0 m/s, -1 m/s]}
+specimen:
+  size: [20 mm, 10 mm]
+  shapes:
+    - {box: {lower: [0 mm, 0 mm], upper: [20 mm, 6 mm]}, material: block}
+    - {box: {lower: [4 mm, 2 mm], upper: [8 mm, 4 mm]}, material: die}
+    - {box: {lower: [7 mm, 8 mm], upper: [14 mm, 10 mm]}, material: die}
+grid: {cells: [20, 10]}
+numerics: {formulation: total_lagrangian, contact_stiffness: 0}
+free_motion: {end_time: 1 ms}
+output: {snapshots: 0}
+)")
+      .compare();
+}
+
 TEST(MeshCount, CountsCellsNearASurface)
 {
   const scene::Scene scene = scene_of(R"(

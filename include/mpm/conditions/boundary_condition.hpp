@@ -26,8 +26,11 @@ class BoundaryCondition {
   /// For nodes that move with a body: sets the updated velocities of those that are held, and of
   /// those that the step from `time` to `time + dt` would take behind a face, and books the
   /// reaction.
-  virtual void stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
-                    double dt) = 0;
+  virtual void stop(const MeshNodes<Dim>&, NodeFields<Dim>&, double /*time*/, double /*dt*/) {}
+  /// Whether `stop` lets what it stops rub along the face, and what that has turned to heat since
+  /// the start at this rank's nodes, J.
+  virtual bool rubs() const { return false; }
+  virtual double friction_work() const { return 0; }
 
   /// Whether it pushes the particles that reach behind a face, and never holds them: it then
   /// leaves the nodes alone.
@@ -67,17 +70,19 @@ class BoundaryCondition {
   }
 
   /// One component of one node that moves with a body gets this velocity. What it brought along
-  /// beyond it is lost, as in an impact: the work is the one done on the node.
-  void drive(NodeFields<Dim>& fields, LocalIndex node, bool owned, int component, double velocity)
+  /// beyond it is lost, as in an impact: the work is the one done on the node. Returns it, J.
+  double drive(NodeFields<Dim>& fields, LocalIndex node, bool owned, int component, double velocity)
   {
     double* u = fields.updated_of(node);
     const double impulse = fields.mass_of(node) * (velocity - u[component]);
     const double before = u[component] - u[Dim + component];
     u[component] = velocity;
     u[Dim + component] = velocity - before;
-    if (!owned) return;
+    if (!owned) return 0;
+    const double work = impulse * 0.5 * (before + velocity);
     reaction_.impulse[component] += impulse;
-    reaction_.work += impulse * 0.5 * (before + velocity);
+    reaction_.work += work;
+    return work;
   }
 
   /// A force (N) on the body along an axis throughout a step, by what moves with this velocity.

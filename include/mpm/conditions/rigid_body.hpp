@@ -11,7 +11,8 @@ namespace mpm {
 
 /// A body of material `rigid` that moves with a prescribed velocity: every node on or inside it
 /// moves with it (sticking), as behind a rigid wall. Its points are known at all times without
-/// being stepped, so every rank keeps all of them, and asks them about its own nodes only.
+/// being stepped, so every rank keeps all of them, and asks them about its own nodes only. (In a
+/// total Lagrangian step such bodies are cells: lagrangian/rigid_cells.hpp.)
 template <int Dim>
 class RigidBody final : public BoundaryCondition<Dim> {
  public:
@@ -23,7 +24,6 @@ class RigidBody final : public BoundaryCondition<Dim> {
                          double dt) override;
   void constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
                           double dt) override;
-  void stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, double time, double dt) override;
 
  private:
   void find_nodes(const Nodes<Dim>& nodes, double time);

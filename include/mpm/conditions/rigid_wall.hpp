@@ -33,9 +33,10 @@ struct WallStiffness {
 template <int Dim>
 class RigidWall final : public BoundaryCondition<Dim> {
  public:
-  /// `stiffness`: of a wall that pushes.
+  /// `stiffness`: of a wall that pushes; `friction`: Coulomb's coefficient of one that stops nodes
+  /// and holds none.
   RigidWall(const WallPlacement& placement, const WallMotion& motion, WallGrip grip,
-            ReactionBook book, const WallStiffness<Dim>& stiffness = {});
+            ReactionBook book, const WallStiffness<Dim>& stiffness = {}, double friction = 0);
 
   void constrain_updated(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
                          double dt) override;
@@ -43,6 +44,9 @@ class RigidWall final : public BoundaryCondition<Dim> {
                           double dt) override;
 
   void stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, double time, double dt) override;
+
+  bool rubs() const override { return friction_ > 0; }
+  double friction_work() const override { return friction_work_; }
 
   bool pushes() const override { return grip_ == WallGrip::contact; }
   bool push(const Body<Dim>& body, LocalIndex block, double time, Lanes (&force)[Dim]) override;
@@ -79,10 +83,13 @@ class RigidWall final : public BoundaryCondition<Dim> {
   WallMotion motion_;
   WallGrip grip_;
   WallStiffness<Dim> stiffness_;
-  double push_ = 0;  ///< N along the axis, on this rank's particles
+  double friction_;
+  double push_ = 0;           ///< N along the axis, on this rank's particles
+  double friction_work_ = 0;  ///< J, of this rank's nodes
   std::optional<Found> found_for_;
   std::vector<LocalIndex> found_;  ///< nodes at the face and behind it
   void find_near(const MeshNodes<Dim>& nodes, double face);
+  void rub(NodeFields<Dim>& fields, LocalIndex node, bool owned, double taken);
 
   /// Of nodes that move with a body: those that stood at the face at time 0, and all that may come
   /// to it before the face and they have gone half a location.

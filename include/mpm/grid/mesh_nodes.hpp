@@ -41,6 +41,10 @@ class MeshNodes final : public Nodes<Dim> {
   /// the largest component of the velocities, m/s.
   double move(NodeFields<Dim>& fields, double dt);
 
+  /// A node that is led goes with a rigid body: walls leave it alone.
+  void lead(LocalIndex node);
+  bool is_led(LocalIndex node) const { return !led_.empty() && led_[std::size_t(node)]; }
+
   /// m, that no node has gone farther along an axis since time 0.
   double way() const { return way_; }
 
@@ -52,6 +56,7 @@ class MeshNodes final : public Nodes<Dim> {
  private:
   std::vector<IndexVec<Dim>> corners_;
   std::vector<char> owned_;
+  std::vector<char> led_;  ///< empty where none is
   Vec<Dim> location_size_;
   IndexVec<Dim> period_;
   std::ptrdiff_t axis_stride() const { return stride == 1 ? size() : 1; }

@@ -22,7 +22,8 @@ namespace mpm {
 /// C the modulus of the fastest wave. Across a flush face the pressure is about 2 kappa C times the
 /// depth over the size of a cell as long as that is small, however the lattices of the two sides
 /// lie to each other; what presses a cell from elsewhere does not enter. No normals, no closest
-/// features: what the corners bear is the derivative.
+/// features: what the corners bear is the derivative. A rigid cell has, with each cell it meets,
+/// the stiffness of that one.
 ///
 /// Each rank keeps the pairs of its own cells with others; of those on other ranks, and of
 /// images across periodic sides, it holds copies.
@@ -35,7 +36,7 @@ class OverlapContact final : public SelfContact<Dim> {
   struct Cell {
     std::array<LocalIndex, corners_of_cell> nodes;  ///< in the order of CellOverlaps
     IndexVec<Dim> location;
-    double stiffness;  ///< S_c, Pa, in the plane N/m
+    double stiffness;  ///< S_c, Pa, in the plane N/m; 0 of a rigid cell: of what it meets
     OpenCorners<Dim> open;
     int body;             ///< whose cell it is
     LocalIndex particle;  ///< and which
@@ -116,6 +117,7 @@ class OverlapContact final : public SelfContact<Dim> {
   struct Part {
     double share, face, own, change;
   };
+  bool is_rigid(LocalIndex cell) const { return stiffness_[std::size_t(cell)] == 0; }
   void answer_overlaps(std::size_t cell, std::span<const Touch> touches);
   /// What presses in a pair, of both its sides, Pa, in the plane N/m.
   double pressure(std::size_t pair) const

@@ -3,6 +3,7 @@
 /// lattice, which share nodes where they were neighbours at the start and only there.
 
 #include <mpm/lagrangian/location_cells.hpp>
+#include <mpm/lagrangian/rigid_cells.hpp>
 #include <mpm/lagrangian/self_contact.hpp>
 #include <mpm/parallel/halo.hpp>
 #include <mpm/stepping/formulation.hpp>
@@ -26,13 +27,14 @@ class TotalLagrangian final : public Formulation<Dim> {
     /// kappa: across a flush face the pressure of contact is 2 kappa C times the depth over the
     /// size of a location. 0: bodies go through each other.
     double contact_stiffness = 2;
-    BodyPairs pairs{};  ///< of all bodies
+    BodyPairs pairs{};  ///< of all bodies, rigid ones last
     /// Cells with a smaller least stretch are made heavier by the square of this over it, so that
     /// they do not shorten the step. 0: none.
     double mass_scaling = 0.8;
     /// At rest the corners stand so beside the lattice; those of this rank's cells at least. In the
     /// plane only.
     CornerOffsets<Dim> offsets{};
+    std::vector<RigidCells<Dim>> rigid{};  ///< the same ones on every rank
   };
 
   TotalLagrangian(Decomposition<Dim> decomposition, Setup setup);
@@ -47,7 +49,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   const Decomposition<Dim>& decomposition() const override { return decomposition_; }
   LocalIndex active_nodes() const override { return nodes_->size(); }
   Carried<Dim> carried() const override;
-  bool has_friction() override { return setup_.pairs.any(); }
+  bool has_friction() override;
   Reaction<Dim> take_reaction() override { return given_.take(); }
   double stress_moment() const override { return 0.5; }
   Slots<Dim>& slots() override { return setup_.slots; }
@@ -68,17 +70,22 @@ class TotalLagrangian final : public Formulation<Dim> {
 
   void make_mesh();
   void take_rest();
+  void take_rigid_bodies(std::span<const CellNodes> cells);
   void make_contact(const std::vector<CellNodes>& cells, const OccupantOf<Dim>& occupant_of);
   void list_node_terms();
   void add_masses();
+  void give_rigid_mass();
   void add_forces(double dt);
   void gather_cell_forces();
   void book_friction(double dt);
+  void lead_rigid_bodies(double dt);
   void add_loads_on_particles();
   void look_for_pairs(double way);
   void scale_masses();
   IndexVec<Dim> location_of(const Body<Dim>& body, LocalIndex particle) const;
   IndexVec<Dim> period() const;
+  /// Whether no cell that can be deformed has a node.
+  bool is_rigid(LocalIndex node) const { return first_masses_[std::size_t(node)] == rigid_mass_; }
   std::span<const NodeRun<Dim>> runs() const { return {&run_, 1}; }
 
   Decomposition<Dim> decomposition_;
@@ -101,8 +108,12 @@ class TotalLagrangian final : public Formulation<Dim> {
   std::vector<double> friction_;  ///< [nodes * Dim], N; empty without
   double friction_work_ = 0;      ///< J, of this rank's nodes since the start
 
-  std::vector<double> first_masses_;  ///< kg, of the nodes
-  /// By masses that come and go, and by friction; to this rank's nodes.
+  std::vector<double> first_masses_;          ///< kg, of the nodes
+  std::vector<std::vector<LocalIndex>> led_;  ///< nodes of each rigid body
+  /// kg, of nodes that rigid bodies alone have: so much that friction knows that they do not give
+  /// way. It counts nowhere else. 0 without such bodies.
+  double rigid_mass_ = 0;
+  /// By masses that come and go, by friction and by rigid bodies; to this rank's nodes.
   Reaction<Dim> given_;
 
   double time_ = 0, last_step_ = 0;

@@ -163,6 +163,7 @@ struct Loading {
   /// s, smooth start (0: at once). Default: eight times what the fastest wave needs to cross.
   std::optional<double> ramp_time;
   Grip grip = Grip::stick;            ///< of piston and fixed edge
+  double friction = 0;                ///< on them, tangential over normal force, at most
   PerLateralSide<Lateral> lateral{};  ///< rigid unless given
   std::optional<LoadCell> load_cell;
   bool operator==(const Loading&) const = default;
@@ -175,6 +176,7 @@ using MotionTable = std::vector<WallMotion::Entry>;
 struct MovingSide {
   Side side = Side::left;
   Grip grip = Grip::stick;
+  double friction = 0;  ///< on it, tangential over normal force, at most
   MotionTable table;
   bool operator==(const MovingSide&) const = default;
 };

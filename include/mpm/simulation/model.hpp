@@ -3,6 +3,7 @@
 
 #include <mpm/conditions/rigid_wall.hpp>
 #include <mpm/core/corner_offsets.hpp>
+#include <mpm/lagrangian/rigid_cells.hpp>
 #include <mpm/simulation/layout.hpp>
 #include <mpm/stepping/formulation.hpp>
 
@@ -34,6 +35,7 @@ struct Apparatus {
 template <int Dim>
 struct Model {
   std::vector<Body<Dim>> bodies;
+  std::vector<RigidCells<Dim>> rigid{};  ///< of a total Lagrangian step; else conditions
   Slots<Dim> slots{};
   CornerOffsets<Dim> offsets{};  ///< of the corners of this rank's locations at rest
   std::optional<Apparatus<Dim>> apparatus;

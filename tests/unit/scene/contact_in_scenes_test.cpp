@@ -44,7 +44,13 @@ TEST_F(ContactInScenes, IsBetweenTwoDifferentBodiesThatCanBeDeformed)
                           "name). Use block, floor or die."));
   EXPECT_THAT(problems(with("[{between: [die, floor]}]")),
               ElementsAre("a.yaml:10:22: contact[0].between[0] is 'die' (it is rigid: all bodies "
-                          "stick to it). Give it a law that can be deformed."));
+                          "stick to it). Give it a law that can be deformed, or use formulation: "
+                          "total_lagrangian."));
+  const std::string cells = "{formulation: total_lagrangian}";
+  EXPECT_THAT(problems(with("[{between: [die, floor]}]", cells)), IsEmpty());
+  EXPECT_THAT(problems(with("[{between: [die, die]}]", cells)),
+              ElementsAre("a.yaml:10:27: contact[0].between[1] is 'die' (rigid bodies do not meet "
+                          "each other). Name a body that can be deformed."));
   EXPECT_THAT(
       problems(with("[{between: [floor, floor]}]")),
       ElementsAre(

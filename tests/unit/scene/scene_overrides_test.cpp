@@ -40,7 +40,7 @@ TEST_F(Overrides, AreNamedInErrorsAfterThoseOfTheFile)
   EXPECT_THAT(problems(smallest + "stepps: 3\n", {"loading.speed=fast", "loading.foo=1"}),
               ElementsAre("a.yaml:7:1: unknown key 'stepps' (did you mean 'steps'?)",
                           "--set loading.foo=1: unknown key 'foo' (known: piston, speed, strain, "
-                          "ramp_time, grip, lateral, load_cell)",
+                          "ramp_time, grip, friction, lateral, load_cell)",
                           "--set loading.speed=fast: loading.speed is 'fast' (must be a velocity). "
                           "Write e.g. 10 m/s."));
 }
