@@ -110,7 +110,11 @@ class Contact(ProgramTest):
 
     def test_a_rigid_plate_presses_a_block_as_one_of_its_kind_would(self):
         """As deep as in the block on another: the contact takes its stiffness from the block."""
-        history = History(self.results("rigid_plate", ranks=2))
+        for scene_name, depth in (("rigid_plate", 1), ("rigid_plate_space", 0.1e-3)):
+            history = History(self.results(scene_name, ranks=2, label=scene_name))
+            self.expect_stress_of_block(history, depth)
+
+    def expect_stress_of_block(self, history, depth):
         size = 0.5e-3
         travel = [20 * t**2 / 8e-6 for t in history["time"]]
         errors = []
@@ -121,7 +125,7 @@ class Contact(ProgramTest):
                 continue
             # The contact as in the block on another: a quarter of a location of 20 times the strain.
             solid = strain - (0.25 * strain + 0.0025) / 20
-            stress = (more - less) / (after - before) / size
+            stress = (more - less) / (after - before) / (size * depth)
             errors.append(stress / (-CONFINED * math.log(1 - solid) / (1 - solid)) - 1)
         self.assertGreater(len(errors), 10)
         self.assertAlmostEqual(sum(errors) / len(errors), 0, delta=0.005)  # it rings by 1 %

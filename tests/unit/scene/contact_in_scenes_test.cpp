@@ -6,6 +6,7 @@ namespace mpm::scene {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 class ContactInScenes : public SceneFolder {
@@ -98,6 +99,18 @@ TEST_F(ContactInScenes, WallsThatPushNeedParticlesThatMoveByTheirStrain)
               ElementsAre("a.yaml:8:53: numerics.scheme is 'xpic' (a wall with grip: contact does "
                           "not know refined velocities). Use scheme: flip."));
   EXPECT_THAT(problems(pushed + "numerics: {formulation: total_lagrangian}\n"), IsEmpty());
+}
+
+TEST_F(ContactInScenes, WallsRubOnCellsThatTheyPushOnly)
+{
+  const std::string rubs = smallest + "  friction: 0.3\n", pushes = rubs + "  grip: contact\n";
+  EXPECT_THAT(problems(pushes + "numerics: {formulation: total_lagrangian}\n"), IsEmpty());
+  EXPECT_THAT(
+      problems(pushes + "numerics: {update_order: musl_displacement}\n"),
+      ElementsAre("a.yaml:7:13: loading.friction is 0.3 (particles slide on walls that push "
+                  "them). Leave it out, or use formulation: total_lagrangian."));
+  EXPECT_THAT(problems(rubs + "numerics: {formulation: total_lagrangian}\n"),
+              ElementsAre(HasSubstr("grip: contact")));
 }
 
 TEST_F(ContactInScenes, AStiffnessIsOfSomethingThatTouches)
