@@ -184,10 +184,20 @@ void OverlapContact<Dim>::add_forces(NodeFields<Dim>& fields) const
   }
 }
 
+/// Around a node of one body, where a wall ends or a corner is open: they touch at rest.
 template <int Dim>
-void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_stretches)
+bool OverlapContact<Dim>::are_neighbours(const Pair& pair) const
 {
-  constexpr double borne = 2;  // what the default step has room for
+  return of_body_[std::size_t(pair.first)] == of_body_[std::size_t(pair.second)] &&
+         apart(pair.first, pair.second).cwiseAbs().maxCoeff() <= 1;
+}
+
+template <int Dim>
+void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_stretches, double way)
+{
+  // Faces that meet between two checks would press long before their cells are heavier: those that
+  // may are taken to press twice as hard as flush ones do at first.
+  constexpr double expected = 2;
   side_ghosts_.update(stiffnesses_, 1);
   std::vector<double> pressed(cells_.size(), 0.0);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
@@ -197,9 +207,17 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
     if (pairs_[k].second < cells())
       pressed[std::size_t(pairs_[k].second)] += parts_of_face_[other] * both;
   }
+  for (const Pair& pair : pairs_) {
+    if (are_neighbours(pair) ||
+        !meet<Dim>(boxes_[std::size_t(pair.first)], boxes_[std::size_t(pair.second)], way))
+      continue;
+    for (const LocalIndex cell : {pair.first, pair.second})
+      if (cell < cells())
+        pressed[std::size_t(cell)] = std::max(pressed[std::size_t(cell)], expected);
+  }
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (is_rigid(LocalIndex(c))) continue;
-    const double harder = (1 + 2 * kappa_ * pressed[c]) / (1 + 2 * kappa_ * borne);
+    const double harder = (1 + 2 * kappa_ * pressed[c]) / (1 + 2 * kappa_ * borne_contact);
     if (harder > 1)
       least_stretches[std::size_t(cells_[c].body)][std::size_t(cells_[c].particle)] /= harder;
   }

@@ -53,7 +53,7 @@ class OverlapContact final : public SelfContact<Dim> {
 
   void add_forces(NodeFields<Dim>& fields) const override;
   void add_friction(const NodeFields<Dim>& fields, double dt, std::span<double> friction) override;
-  void count_stiffness(std::span<LaneVector<double>> least_stretches) override;
+  void count_stiffness(std::span<LaneVector<double>> least_stretches, double way) override;
   double energy() const override { return energy_; }
   double overlapped_area() const override;
   GlobalIndex touching() const override { return touching_; }
@@ -84,6 +84,7 @@ class OverlapContact final : public SelfContact<Dim> {
   void take_places(const MeshNodes<Dim>& nodes);
   IndexVec<Dim> apart(LocalIndex from, LocalIndex to) const;
   bool can_meet(LocalIndex own, LocalIndex other) const;
+  bool are_neighbours(const Pair& pair) const;
   bool are_of_one_wall(LocalIndex a, LocalIndex b) const;
   void find_boxes();
   bool is_there(int image) const;

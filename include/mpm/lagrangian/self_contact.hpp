@@ -8,6 +8,10 @@
 
 namespace mpm {
 
+/// Of the stiffness that a flush contact has before it hardens: what a step bears that is made for
+/// contact. Cells that bear more become heavier.
+inline constexpr double borne_contact = 0.5;
+
 /// Pairs of cells that can meet are found now and then, what they bear in every step. Each rank
 /// answers for its own cells.
 template <int Dim>
@@ -23,10 +27,10 @@ class SelfContact {
   /// Overlaps at the present places. Every rank calls it.
   virtual void measure(const MeshNodes<Dim>& nodes) = 0;
 
-  /// Divides squares of least stretches, of each body's cells, by how much stiffer contact has made
-  /// the cells at some `measure` since the last call than a step bears that is made for its first
-  /// stiffness. Every rank calls it.
-  virtual void count_stiffness(std::span<LaneVector<double>> least_stretches) = 0;
+  /// Divides squares of least stretches, of each body's cells, by how much stiffer than
+  /// borne_contact contact has made the cells at some `measure` since the last call, or may before
+  /// the next one if two cells come nearer by `way`, m. Every rank calls it.
+  virtual void count_stiffness(std::span<LaneVector<double>> least_stretches, double way) = 0;
 
   // At the last call of `measure`, of this rank's cells.
   virtual void add_forces(NodeFields<Dim>& fields) const = 0;
