@@ -3,6 +3,7 @@
 /// lattice, which share nodes where they were neighbours at the start and only there.
 
 #include <mpm/lagrangian/location_cells.hpp>
+#include <mpm/lagrangian/occupants.hpp>
 #include <mpm/lagrangian/self_contact.hpp>
 #include <mpm/parallel/halo.hpp>
 #include <mpm/stepping/formulation.hpp>
@@ -14,7 +15,7 @@ namespace mpm {
 
 /// Central differences: velocities stand half a step before places and stresses. Places and
 /// velocities live on the nodes. There is no sort, no migration and no activity; the halo never
-/// changes, and a step has no collective.
+/// changes, and a step has no collective. Cells that fail leave their mass on the nodes.
 template <int Dim>
 class TotalLagrangian final : public Formulation<Dim> {
  public:
@@ -33,6 +34,7 @@ class TotalLagrangian final : public Formulation<Dim> {
     /// At rest the corners stand so beside the lattice; those of this rank's cells at least. In the
     /// plane only.
     CornerOffsets<Dim> offsets{};
+    std::vector<FailureLimits> failure{};  ///< of each body; empty: no cell fails
   };
 
   TotalLagrangian(Decomposition<Dim> decomposition, Setup setup);
@@ -64,11 +66,12 @@ class TotalLagrangian final : public Formulation<Dim> {
 
  private:
   using CellNodes = typename LocationCells<Dim>::CellNodes;
+  using ContactCell = typename SelfContact<Dim>::Cell;
   using Formulation<Dim>::steps_between_checks;
 
   void make_mesh();
   void take_rest();
-  void make_contact(const std::vector<CellNodes>& cells, const OccupantOf<Dim>& occupant_of);
+  std::vector<ContactCell> contact_cells(const Occupants<Dim>& occupants) const;
   void list_node_terms();
   void add_masses();
   void add_forces(double dt);
@@ -77,6 +80,11 @@ class TotalLagrangian final : public Formulation<Dim> {
   void add_loads_on_particles();
   void look_for_pairs(double way);
   void scale_masses();
+  bool cells_may_fail() const { return !setup_.failure.empty(); }
+  std::vector<double> remove_failed();
+  void part(std::span<const double> failed_locations);
+  void list_what_is_left();
+  void archive_failure(Archive& archive);
   IndexVec<Dim> location_of(const Body<Dim>& body, LocalIndex particle) const;
   IndexVec<Dim> period() const;
   std::span<const NodeRun<Dim>> runs() const { return {&run_, 1}; }
@@ -104,6 +112,9 @@ class TotalLagrangian final : public Formulation<Dim> {
   std::vector<double> first_masses_;  ///< kg, of the nodes
   /// By masses that come and go, and by friction; to this rank's nodes.
   Reaction<Dim> given_;
+
+  FailedCells failed_;        ///< of this rank
+  Occupants<Dim> occupants_;  ///< where cells may fail
 
   double time_ = 0, last_step_ = 0;
   GlobalIndex steps_ = 0;
