@@ -18,10 +18,10 @@ class TornStrip(ProgramTest):
         # All that is torn was dissipated before, but for what was stored.
         self.assertLess(history["failed_energy"][-1], 0.05 * history["plastic_work"][-1])
         self.assertEqual(history["plastic_work"], sorted(history["plastic_work"]))
-        self.assertLess(max(abs(e) for e in history["energy_error"][20:]), 5e-3)
+        self.assertLess(max(abs(e) for e in history["energy_error"][20:]), 1e-3)
         self.assertLess(max(history["momentum_error"]), 1e-11)
         self.assertEqual(found["failed_cells"], failed)
-        self.assertEqual(found["failed_energy"], history["failed_energy"][-1])
+        self.assertAlmostEqual(found["failed_energy"] / history["failed_energy"][-1], 1, places=11)
         self.assertIn("cells have failed", " ".join(found["warnings"]))
 
     def test_on_one_rank_as_on_three(self):

@@ -34,7 +34,7 @@ TEST_F(FailureInScenes, IsAtEitherLimitOrBoth)
 TEST_F(FailureInScenes, IsOfCellsAlone)
 {
   EXPECT_THAT(problems(with("{stretch: 4}", flows, "{}")),
-              ElementsAre("a.yaml:9:12: material.failure is {stretch: 4} (only cells of "
+              ElementsAre("a.yaml:9:3: material.failure is a map (only cells of "
                           "total_lagrangian fail). Leave it out, or set numerics.formulation: "
                           "total_lagrangian."));
 }
@@ -50,7 +50,7 @@ TEST_F(FailureInScenes, OfPlasticStrainNeedsALawThatFlows)
 TEST_F(FailureInScenes, NamesALimitThatASoundCellDoesNotReach)
 {
   EXPECT_THAT(problems(with("{}")),
-              ElementsAre("a.yaml:9:12: material.failure is {} (it sets no limit). Add "
+              ElementsAre("a.yaml:9:3: material.failure is a map (it sets no limit). Add "
                           "plastic_strain: 1.5 or stretch: 4."));
   EXPECT_THAT(problems(with("{stretch: 1}")),
               ElementsAre(HasSubstr("material.failure.stretch is 1 (must be above 1)")));
