@@ -92,10 +92,10 @@ void TotalLagrangian<Dim>::make_mesh()
   for (const Body<Dim>& body : setup_.bodies) {
     const auto count = std::size_t(body.particles.size());
     cells_.emplace_back(body, std::span(mesh.cells).subspan(first, count), setup_.location_size);
+    least_stretches_.emplace_back(std::size_t(body.particles.blocks()) * lane_count);
     first += count;
   }
   if (!setup_.offsets.empty()) take_rest();
-  least_stretches_.resize(cells_.size());
   if constexpr (Dim == 2) list_node_terms();
   if (setup_.contact_stiffness > 0)
     contact_ =
