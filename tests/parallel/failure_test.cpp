@@ -122,6 +122,25 @@ TEST(Failure, LeavesSurfacesThatMeet)
   for (int row = 0; row < scene.cells[1]; ++row) EXPECT_GT(gap(bar, now, scene, row), 0.87 * edge);
 }
 
+/// Nodes without cells fly on as they did, and no speed of theirs sets a step.
+TEST(Failure, OfAllCellsLeavesMassesThatFlyFreely)
+{
+  Bar<2> bar(MPI_COMM_WORLD,
+             {.cells = {12, 6}, .weak = 12, .limits = {.stretch = 1.005}, .rate = 1e5, .fly = 30});
+  const auto before = bar.found();
+  bar.advance(3);
+  const auto torn = bar.found();
+  EXPECT_EQ(torn.failed, bar.weak_cells());
+  bar.advance(60);
+  const auto after = bar.found();
+  EXPECT_EQ(bar.stepper().agreed().largest_speed, 0);
+  EXPECT_EQ(bar.stepper().agreed().wave_speed, bar.stepper().bodies().back().law->wave_speed());
+  EXPECT_EQ(after.stored, torn.stored);
+  EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * before.momentum.norm());
+  bar.advance(60);
+  EXPECT_NEAR(bar.found().energy / after.energy, 1, 1e-12);
+}
+
 /// Into a run that has not begun, and into one that has lost what the kept state still has.
 TEST(Failure, TakesUpWhatWasSavedToTheLastBit)
 {
