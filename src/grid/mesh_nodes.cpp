@@ -71,6 +71,11 @@ double MeshNodes<Dim>::move(NodeFields<Dim>& fields, double dt)
   }
   way_ += dt * fastest;
   listing_ = Nodes<Dim>::new_listing();
+  if (free_.empty()) return fastest;
+  fastest = 0;
+  for (LocalIndex node = 0; node < size(); ++node)
+    for (int d = 0; d < Dim && !is_free(node); ++d)
+      fastest = std::max(fastest, std::abs(fields.updated_of(node)[d]));
   return fastest;
 }
 
@@ -85,8 +90,8 @@ void MeshNodes<Dim>::archive(Archive& archive)
 template <int Dim>
 std::size_t MeshNodes<Dim>::bytes() const
 {
-  return owned_.size() * (sizeof(char) + sizeof(IndexVec<Dim>)) + led_.size() * sizeof(char) +
-         places_.size() * sizeof(double);
+  return owned_.size() * (sizeof(char) + sizeof(IndexVec<Dim>)) +
+         (led_.size() + free_.size()) * sizeof(char) + places_.size() * sizeof(double);
 }
 
 template class MeshNodes<2>;

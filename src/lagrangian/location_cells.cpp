@@ -241,18 +241,33 @@ auto LocationCells<Dim>::update(Body<Dim>& body, const MeshNodes<Dim>& nodes, do
 }
 
 template <int Dim>
+void LocationCells<Dim>::add_bending_energy(const Body<Dim>& body, const MeshNodes<Dim>& nodes,
+                                            LocalIndex block, Lanes& sum) const
+{
+  const Lanes volume = load(body.particles.state().block(block));
+  const CellCorners<Dim> at = corners(nodes, block);
+  const CellDeformation<Dim> now(at, frame_);
+  bending_.add_energy(now.bending, rest_of(body.particles.motion().block(block)), volume, sum);
+  const Lanes least = column(least_corners_.data(), block);
+  sum += corner_energy(at, corner_stiffness(least, volume), frame_, least);
+}
+
+template <int Dim>
 double LocationCells<Dim>::bending_energy(const Body<Dim>& body, const MeshNodes<Dim>& nodes) const
 {
   Lanes sum = 0.0;
-  for (LocalIndex b = 0; b < body.particles.blocks(); ++b) {
-    const Lanes volume = load(body.particles.state().block(b));
-    const CellCorners<Dim> at = corners(nodes, b);
-    const CellDeformation<Dim> now(at, frame_);
-    bending_.add_energy(now.bending, rest_of(body.particles.motion().block(b)), volume, sum);
-    const Lanes least = column(least_corners_.data(), b);
-    sum += corner_energy(at, corner_stiffness(least, volume), frame_, least);
-  }
+  for (LocalIndex b = 0; b < body.particles.blocks(); ++b) add_bending_energy(body, nodes, b, sum);
   return stdx::reduce(sum);
+}
+
+template <int Dim>
+double LocationCells<Dim>::stored_energy(const Body<Dim>& body, const MeshNodes<Dim>& nodes,
+                                         LocalIndex cell) const
+{
+  const LocalIndex block = cell / lane_count;
+  Lanes energy = body.law->elastic_energy(body.particles.state().block(block));
+  add_bending_energy(body, nodes, block, energy);
+  return energy[std::size_t(cell % lane_count)];
 }
 
 template <int Dim>

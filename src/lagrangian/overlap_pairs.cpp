@@ -70,8 +70,10 @@ template <int Dim>
 double OverlapContact<Dim>::largest_way(const MeshNodes<Dim>& nodes) const
 {
   double squared = 0;
-  for (std::size_t n = 0; n < places_then_.size(); ++n)
+  for (std::size_t n = 0; n < places_then_.size(); ++n) {
+    if (nodes.is_free(LocalIndex(n))) continue;
     squared = std::max(squared, (nodes.position(LocalIndex(n)) - places_then_[n]).squaredNorm());
+  }
   return Overlaps::reach * std::sqrt(squared);
 }
 

@@ -91,6 +91,7 @@ Carried<Dim> TotalLagrangian<Dim>::carried() const
     if (!carried.contact) carried.contact.emplace();
     carried.contact->friction_work += condition->friction_work();
   }
+  if (cells_may_fail()) carried.failed = failed_;
   return carried;
 }
 
@@ -115,6 +116,7 @@ void TotalLagrangian<Dim>::check()
     contact_->count_stiffness(least_stretches_,
                               speeding_up * steps_between_checks * last_step_ * fastest);
   }
+  const std::vector<double> failed = remove_failed();
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     Body<Dim>& body = setup_.bodies[b];
     wave_speed = std::max(
@@ -128,10 +130,13 @@ void TotalLagrangian<Dim>::check()
     loss_ = Loss<Dim>{lost, body.name, {steps_, time_}};
   }
   const double work = this->particles();
-  // The largest of: speeds, work, and minus the step of the first loss; ways of nodes.
-  std::array<double, 5> largest{largest_speed_, wave_speed, work,
+  // The largest of: speeds, work, and minus the step of the first loss; ways of nodes; what failed.
+  std::array<double, 6> largest{largest_speed_,
+                                wave_speed,
+                                work,
                                 loss_ ? -double(loss_->moment.step) : never,
-                                contact_ ? contact_->largest_way(*nodes_) : 0.0};
+                                contact_ ? contact_->largest_way(*nodes_) : 0.0,
+                                double(failed.size())};
   const MPI_Comm comm = decomposition_.comm();
   largest_over_ranks(comm, largest);
   if (largest[3] > never)
@@ -147,6 +152,10 @@ void TotalLagrangian<Dim>::check()
   agreed_.mean_particles = mean;
   largest_speed_ = 0;
   checked_ = steps_;
+  if (largest[5] > 0) {
+    part(failed);
+    largest[4] = 0;
+  }
   if (contact_) look_for_pairs(largest[4]);
   if (setup_.mass_scaling > 0) scale_masses();
 }
@@ -293,6 +302,7 @@ void TotalLagrangian<Dim>::archive(Archive& archive)
     nodes_->archive(archive);
     fields_->archive(archive);
   }
+  archive_failure(archive);
   setup_.slots.archive(archive);
   if (!archive.is_loading()) return;
   loss_.reset();

@@ -1,29 +1,14 @@
 /// What a total Lagrangian step sets up once: nodes and what they share, masses, lists of terms.
 
 #include <mpm/core/index_box.hpp>
+#include <mpm/lagrangian/overlap_contact.hpp>
 #include <mpm/lagrangian/total_lagrangian.hpp>
 #include <mpm/parallel/session.hpp>
 
 #include <array>
 #include <cmath>
-#include <map>
 
 namespace mpm {
-
-namespace {
-
-template <int Dim>
-using LocationKey = std::array<LocalIndex, std::size_t(Dim)>;
-
-template <int Dim>
-LocationKey<Dim> key_of(const IndexVec<Dim>& location)
-{
-  LocationKey<Dim> key;
-  for (int d = 0; d < Dim; ++d) key[std::size_t(d)] = location[d];
-  return key;
-}
-
-}  // namespace
 
 /// Of a particle at the centre of its location.
 template <int Dim>
@@ -69,11 +54,11 @@ void TotalLagrangian<Dim>::make_mesh()
 
   // Locations of this rank, and those of others within two of a border between ranks.
   std::vector<IndexVec<Dim>> cells;
-  std::map<LocationKey<Dim>, Occupant> taken;
+  Occupants<Dim> taken;
   std::vector<double> at_borders;
   const auto add = [&](const IndexVec<Dim>& location, int body) {
     cells.push_back(location);
-    taken[key_of<Dim>(location)] = {me, body};
+    taken.put(location, {me, body});
     bool at_border = false;
     const IndexVec<Dim> below = (location.array() - 2).matrix(),
                         above = (location.array() + 2).matrix();
@@ -98,12 +83,10 @@ void TotalLagrangian<Dim>::make_mesh()
   for (std::size_t k = 0; k < all.size(); k += Dim + 1) {
     IndexVec<Dim> location;
     for (int d = 0; d < Dim; ++d) location[d] = LocalIndex(all[k + std::size_t(d)]);
-    taken.try_emplace(key_of<Dim>(location),
-                      Occupant{owner_of(cell_of(location)), int(all[k + Dim])});
+    taken.put(location, {owner_of(cell_of(location)), int(all[k + Dim])});
   }
   const OccupantOf<Dim> occupant_of = [&](const IndexVec<Dim>& location) {
-    const auto found = taken.find(key_of<Dim>(location));
-    return found == taken.end() ? Occupant{} : found->second;
+    return taken(location);
   };
 
   LocationMesh<Dim> mesh = make_location_mesh<Dim>(cells, me, occupant_of, setup_.pairs, period);
@@ -116,13 +99,17 @@ void TotalLagrangian<Dim>::make_mesh()
   for (const Body<Dim>& body : setup_.bodies) {
     const auto count = std::size_t(body.particles.size());
     cells_.emplace_back(body, std::span(mesh.cells).subspan(first, count), setup_.location_size);
+    least_stretches_.emplace_back(std::size_t(body.particles.blocks()) * lane_count);
     first += count;
   }
   take_rigid_bodies(std::span(mesh.cells).subspan(first));
   if (!setup_.offsets.empty()) take_rest();
-  least_stretches_.resize(cells_.size());
   if constexpr (Dim == 2) list_node_terms();
-  if (setup_.contact_stiffness > 0) make_contact(mesh.cells, occupant_of);
+  if (setup_.contact_stiffness > 0)
+    contact_ =
+        std::make_unique<OverlapContact<Dim>>(comm, contact_cells(taken), setup_.contact_stiffness,
+                                              setup_.pairs, setup_.location_size, period);
+  if (contact_ && cells_may_fail()) occupants_ = std::move(taken);
   if (contact_ && setup_.pairs.any_friction())
     friction_.assign(Dim * std::size_t(nodes_->size()), 0.0);
 }
@@ -132,6 +119,7 @@ void TotalLagrangian<Dim>::list_node_terms()
 {
   constexpr int corners = LocationMesh<Dim>::corners;
   std::size_t values = 0;
+  first_force_.clear();
   for (const Body<Dim>& body : setup_.bodies) {
     first_force_.push_back(values);
     values += std::size_t(body.particles.blocks()) * LocationCells<Dim>::block_values;
@@ -157,8 +145,11 @@ void TotalLagrangian<Dim>::list_node_terms()
 template <int Dim>
 void TotalLagrangian<Dim>::take_rest()
 {
-  for (std::size_t b = 0; b < cells_.size(); ++b)
+  for (std::size_t b = 0; b < cells_.size(); ++b) {
     cells_[b].take_rest(setup_.bodies[b], *nodes_, setup_.thickness);
+    if (cells_may_fail() && setup_.failure[b].limit_stretch())
+      cells_[b].keep_rest(setup_.bodies[b]);
+  }
   setup_.offsets = {};
   checked_ = -1;  // the first step has to know them
 }
@@ -200,6 +191,7 @@ void TotalLagrangian<Dim>::add_masses()
 
 template void TotalLagrangian<2>::make_mesh();
 template void TotalLagrangian<3>::make_mesh();
+template void TotalLagrangian<2>::list_node_terms();
 template void TotalLagrangian<2>::add_masses();
 template void TotalLagrangian<3>::add_masses();
 template IndexVec<2> TotalLagrangian<2>::location_of(const Body<2>&, LocalIndex) const;

@@ -3,6 +3,39 @@
 
 namespace mpm::scene {
 
+namespace {
+
+bool has_plastic_strain(const Material& material, Plane plane)
+{
+  const LawRow& law = *material.law;
+  ParameterValues values = material.values;
+  fill_defaults(law, values);
+  const std::vector<Column> columns = law.in_plane ? law.in_plane(values, plane)->state_columns()
+                                                   : law.in_space(values)->state_columns();
+  return std::ranges::find(columns, "plastic_strain", &Column::name) != columns.end();
+}
+
+void check_failure(const Checked& checked, const Material& material, const std::string& path)
+{
+  const std::string key = path + ".failure";
+  if (!checked.given(key) || !checked.sound(path)) return;
+  const Numerics& numerics = checked.scene.numerics;
+  if (numerics.formulation != FormulationKind::total_lagrangian)
+    return checked.refuse(key, "only cells of total_lagrangian fail",
+                          "Leave it out, or set numerics.formulation: total_lagrangian");
+  if (!material.law->deformable())
+    return checked.refuse(key, "a rigid body bears anything", "Leave it out");
+  const Failure failure = material.failure.value_or(Failure{});
+  if (!failure.plastic_strain && !failure.stretch)
+    return checked.refuse(key, "it sets no limit", "Add plastic_strain: 1.5 or stretch: 4");
+  if (failure.plastic_strain && !has_plastic_strain(material, numerics.plane))
+    checked.refuse(key + ".plastic_strain",
+                   fmt::format("law {} has no plastic strain", material.law->keyword),
+                   "Use stretch, or a law that flows, such as von_mises");
+}
+
+}  // namespace
+
 void check_materials(const Checked& checked)
 {
   checked.both_given("materials", "material");
@@ -21,6 +54,7 @@ void check_materials(const Checked& checked)
     if (material.law->check && checked.sound(path))
       if (const auto found = material.law->check(material.values))
         checked.refuse(path + "." + found->key, found->reason);
+    check_failure(checked, material, path);
     if (material.name == "void" || material.name.empty())
       checked.refuse(path + ".name", "stands for no material", "Choose another name");
     if (materials.size() > 1 && !checked.given(path + ".name")) {

@@ -78,6 +78,7 @@ void write_input_reference(std::ostream& out)
   out << introduction;
   write_sections<SceneKeys, Material>(out);
   write_words<LawRow>(out, "law");
+  write_sections<Failure>(out);
   write_sections<Specimen, GrayBand, Window, Shape>(out);
   for_each_kind([&]<class Kind>(std::type_identity<Kind>) { write_sections<Kind>(out); });
   write_sections<Grid, Numerics>(out);

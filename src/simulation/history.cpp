@@ -43,8 +43,12 @@ History<Dim>::History(Formulation<Dim>& formulation, std::optional<Apparatus<Dim
 template <int Dim>
 HistoryKind History<Dim>::kind() const
 {
-  return {apparatus_.has_value(), apparatus_ && apparatus_->load_cell_body >= 0,
-          start_.contact.has_value(), formulation_.has_friction(), Dim == 3};
+  return {apparatus_.has_value(),
+          apparatus_ && apparatus_->load_cell_body >= 0,
+          start_.contact.has_value(),
+          formulation_.has_friction(),
+          Dim == 3,
+          start_.failed.has_value()};
 }
 
 template <int Dim>
@@ -133,7 +137,8 @@ double History<Dim>::work_ahead(const Sums<Dim>& sums) const
 {
   constexpr double places = 0.5;
   return formulation_.stress_moment() * (sums.elastic_energy + sums.plastic_work) +
-         (sums.contact ? places * sums.contact->energy : 0.0);
+         (sums.contact ? places * sums.contact->energy : 0.0) +
+         (sums.failed ? places * sums.failed->energy : 0.0);
 }
 
 template <int Dim>
@@ -172,6 +177,10 @@ const HistoryLine& History<Dim>::record(double dt)
     line.contact_pairs = sums.contact->pairs;
     line.friction_work = sums.contact->friction_work;
   }
+  if (sums.failed) {
+    line.failed_cells = sums.failed->cells;
+    line.failed_energy = sums.failed->energy;
+  }
   begin_line(line);
   if (apparatus_) {
     line.strain = apparatus_->strain(line.time);
@@ -187,8 +196,10 @@ template <int Dim>
 void History<Dim>::check(const Sums<Dim>& sums, const HistoryLine& line) const
 {
   // The sums are the same on every rank, so all of them throw or none.
-  if (sums.particles != start_.particles || sums.id_sum != start_.id_sum ||
-      std::abs(sums.mass - start_.mass) > 1e-9 * start_.mass)
+  const FailedCells failed = sums.failed.value_or(FailedCells{});
+  if (sums.particles + failed.cells != start_.particles ||
+      sums.id_sum + failed.id_sum != start_.id_sum ||
+      std::abs(sums.mass + failed.mass - start_.mass) > 1e-9 * start_.mass)
     throw NumericalError(fmt::format(
         "particles were lost or doubled by step {} (t = {:.6g} s): {} of {} particles, sum of ids "
         "{} instead of {}, mass {:.12g} instead of {:.12g} kg. This is a defect of mpm_par: please "

@@ -25,11 +25,13 @@ constexpr Member<double> measured[] = {{"time", &HistoryLine::time},
                                        {"contact_energy", &HistoryLine::contact_energy},
                                        {"overlapped_area", &HistoryLine::overlapped_area},
                                        {"friction_work", &HistoryLine::friction_work},
+                                       {"failed_energy", &HistoryLine::failed_energy},
                                        {"energy_error", &HistoryLine::energy_error},
                                        {"momentum_error", &HistoryLine::momentum_error},
                                        {"time_step", &HistoryLine::time_step}};
 constexpr Member<GlobalIndex> counted[] = {{"particles", &HistoryLine::particles},
                                            {"contact_pairs", &HistoryLine::contact_pairs},
+                                           {"failed_cells", &HistoryLine::failed_cells},
                                            {"behind_piston", &HistoryLine::behind_piston},
                                            {"outside_walls", &HistoryLine::outside_walls}};
 
@@ -72,6 +74,10 @@ std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind)
     list.push_back({"contact_pairs", "1"});
   }
   if (kind.friction) list.push_back({"friction_work", "J"});
+  if (kind.failure) {
+    list.push_back({"failed_cells", "1"});
+    list.push_back({"failed_energy", "J"});
+  }
   list.push_back({"energy_error", "1"});
   list.push_back({"momentum_error", "1"});
   list.push_back({"particles", "1"});
@@ -96,6 +102,7 @@ std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind
     values.insert(values.end(),
                   {line.contact_energy, line.overlapped_area, double(line.contact_pairs)});
   if (kind.friction) values.push_back(line.friction_work);
+  if (kind.failure) values.insert(values.end(), {double(line.failed_cells), line.failed_energy});
   values.insert(values.end(),
                 {line.energy_error, line.momentum_error, double(line.particles), line.time_step});
   if (kind.piston)

@@ -10,8 +10,10 @@ template <int Dim>
 Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation)
 {
   const Carried<Dim> carried = formulation.carried();
-  std::array<GlobalIndex, 3> counts{0, 0, carried.contact ? carried.contact->pairs : 0};
-  std::array<double, 7 + Dim> sums{};
+  const FailedCells failed = carried.failed.value_or(FailedCells{});
+  std::array<GlobalIndex, 5> counts{0, 0, carried.contact ? carried.contact->pairs : 0,
+                                    failed.cells, failed.id_sum};
+  std::array<double, 10 + Dim> sums{};
   sums[1] = carried.kinetic_energy;
   sums[2] = carried.elastic_energy;
   if (carried.contact) {
@@ -20,6 +22,9 @@ Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation)
     sums[6] = carried.contact->friction_work;
   }
   for (int d = 0; d < Dim; ++d) sums[7 + d] = carried.momentum[d];
+  sums[7 + Dim] = failed.mass;
+  sums[8 + Dim] = failed.energy;
+  sums[9 + Dim] = failed.plastic_work;
   for (const Body<Dim>& body : formulation.bodies()) {
     const ParticleStore& particles = body.particles;
     counts[0] += particles.size();
@@ -40,9 +45,11 @@ Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation)
   const MPI_Comm comm = formulation.decomposition().comm();
   sum_over_ranks(comm, counts);
   sum_over_ranks(comm, sums);
-  Sums<Dim> result{counts[0], counts[1], sums[0], sums[1], sums[2], sums[3]};
+  Sums<Dim> result{counts[0], counts[1], sums[0], sums[1], sums[2], sums[3] + sums[9 + Dim]};
   for (int d = 0; d < Dim; ++d) result.momentum[d] = sums[7 + d];
   if (carried.contact) result.contact = {sums[4], sums[5], counts[2], sums[6]};
+  if (carried.failed)
+    result.failed = {counts[3], counts[4], sums[7 + Dim], sums[8 + Dim], sums[9 + Dim]};
   return result;
 }
 

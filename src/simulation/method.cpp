@@ -52,6 +52,13 @@ double mass_scaling_of(const scene::Scene& scene)
       std::holds_alternative<scene::Loading>(scene.motion) ? in_crushing : 0.0);
 }
 
+bool cells_may_fail(const scene::Scene& scene)
+{
+  return std::ranges::any_of(scene.materials, [](const scene::Material& material) {
+    return material.failure.has_value();
+  });
+}
+
 double stress_moment_of(const scene::Numerics& numerics)
 {
   return is_total_lagrangian(numerics) ? 0.5 : numerics.update_order->stress_moment;

@@ -143,7 +143,13 @@ void plan_mesh(const Preparation<Dim>& preparation, Plan& plan)
   for (Plan::Particles& body : plan.bodies)
     body.columns.insert(body.columns.end(), {{"corners", corners * int(sizeof(LocalIndex))},
                                              {"corner_forces", corners * Dim * int(sizeof(double))},
-                                             {"corner_bounds", 2 * int(sizeof(double))}});
+                                             {"corner_bounds", 2 * int(sizeof(double))},
+                                             {"least_stretch", int(sizeof(double))}});
+  if (preparation.scene.numerics.surface == scene::Surface::fitted)
+    for (Plan::Particles& body : plan.bodies)
+      for (const scene::Material& material : preparation.scene.materials)
+        if (material.name == body.body && material.failure && material.failure->stretch)
+          body.columns.push_back({"rest_deformation", Dim * Dim * int(sizeof(double))});
   PassOutline& pass = plan.passes.emplace_back();
   pass.name = "cells";
   pass.sums = {"force"};

@@ -188,6 +188,11 @@ class Run {
       if (line.strain > 0.01 || !model_.apparatus)
         result_.largest_energy_error =
             std::max(result_.largest_energy_error, std::abs(line.energy_error));
+    if (const HistoryLine& last = result_.lines.back(); last.failed_cells > 0)
+      result_.warnings.push_back(fmt::format(
+          "{} of {} cells have failed and were removed, and {:.4g} J with them. Results depend on "
+          "the limits of failure and, where it localises, on the size of the cells.",
+          last.failed_cells, result_.particles, last.failed_energy));
     measure_cooperation();
     if (model_.apparatus) result_.properties = properties();
     result_.wall_seconds = seconds_since(start_);

@@ -126,6 +126,7 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const std::filesyst
   const RunResult result = run<Dim>(preparation, observers);
   on_rank_zero(comm, [&] {
     write_summary(preparation, result, exact, folder / "summary.json");
+    for (const std::string& warning : result.warnings) spdlog::warn(warning);
     if (result.properties) print(*result.properties);
     exact.print();
     fmt::print(

@@ -1,6 +1,7 @@
 #include <mpm/analysis/compression_summary.hpp>
 #include <mpm/output/summary.hpp>
 #include <mpm/parallel/session.hpp>
+#include <mpm/simulation/method.hpp>
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/run_summary.hpp>
 
@@ -92,12 +93,18 @@ void write_summary(const Preparation<Dim>& preparation, const RunResult& result,
   describe(result.cooperation, summary);
   summary.set("energy_error", last.energy_error);
   summary.set("largest_energy_error", result.largest_energy_error);
+  if (cells_may_fail(preparation.scene)) {
+    summary.set("failed_cells", last.failed_cells);
+    summary.set("failed_energy", last.failed_energy);
+  }
   if (result.properties) {
     describe_curve(*result.properties, summary);
     summary.set("deepest_behind_piston", result.deepest_behind_piston);
   }
   exact.describe(summary);
-  summary.set("warnings", preparation.warnings);
+  std::vector<std::string> warnings = preparation.warnings;
+  warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+  summary.set("warnings", warnings);
   describe(result.goings_back, result.repeated_steps, summary);
   describe(preparation.plan, summary.section("plan"));
   for (const auto& [what, version] : provenance()) summary.section("provenance").set(what, version);

@@ -15,7 +15,7 @@ struct SumsOfBodies {
   std::vector<double> places;  ///< m, all components of all cells' middles, by id
   double energy = 0, stored = 0, work = 0, bending = 0;  ///< J; stored: without the kinetic one
   double overlapped = 0;                                 ///< m^2, in space m^3
-  GlobalIndex pairs = 0;
+  GlobalIndex pairs = 0, failed = 0;
   Vec<Dim> momentum = Vec<Dim>::Zero(), impulse = Vec<Dim>::Zero();
 
   /// Of `cells` in all; takes the reactions. Collective.
@@ -41,6 +41,10 @@ struct SumsOfBodies {
     const Carried<Dim> carried = stepper.carried();
     bending = carried.elastic_energy;
     stored += bending + carried.contact->energy;
+    if (carried.failed) {
+      stored += carried.failed->energy + carried.failed->plastic_work;
+      failed = carried.failed->cells;
+    }
     energy = stored + carried.kinetic_energy;
     overlapped = carried.contact->overlapped_area;
     pairs = carried.contact->pairs;
@@ -52,6 +56,7 @@ struct SumsOfBodies {
     sum_over_ranks(comm, std::span(momentum.data(), Dim));
     sum_over_ranks(comm, std::span(impulse.data(), Dim));
     sum_over_ranks(comm, std::span(&pairs, 1));
+    sum_over_ranks(comm, std::span(&failed, 1));
     sum_over_ranks(comm, places);
   }
 };

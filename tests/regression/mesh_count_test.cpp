@@ -122,6 +122,16 @@ output: {snapshots: 0}
       .compare();
 }
 
+TEST(MeshCount, TakesWhatFittedCellsThatMayFailWereAtRest)
+{
+  std::string text = honeycomb(
+      "numerics: {formulation: total_lagrangian, surface: fitted, contact_stiffness: 0}\n"
+      "loading: {piston: right, speed: 10 m/s, lateral: rigid}\n");
+  const std::string yield = "yield_stress: 10 MPa";
+  text.insert(text.find(yield) + yield.size(), ", failure: {stretch: 3}");
+  Expected(text).compare();
+}
+
 TEST(MeshCount, CountsCellsNearASurface)
 {
   const scene::Scene scene = scene_of(R"(

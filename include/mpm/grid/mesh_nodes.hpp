@@ -38,12 +38,15 @@ class MeshNodes final : public Nodes<Dim> {
   static constexpr int stride = Dim == 2 ? 1 : 4;
   const double* along(int axis) const { return places_.data() + axis * axis_stride(); }
   /// x += dt v with the updated velocities, which become the momentum; forces are 0 then. Returns
-  /// the largest component of the velocities, m/s.
+  /// the largest component of the velocities of nodes that are not free, m/s.
   double move(NodeFields<Dim>& fields, double dt);
 
   /// A node that is led goes with a rigid body: walls leave it alone.
   void lead(LocalIndex node);
   bool is_led(LocalIndex node) const { return !led_.empty() && led_[std::size_t(node)]; }
+  /// Which nodes fly freely, as no cell of this rank holds them any more; at the start none.
+  void set_free(std::vector<char> free) { free_ = std::move(free); }
+  bool is_free(LocalIndex node) const { return !free_.empty() && free_[std::size_t(node)]; }
 
   /// m, that no node has gone farther along an axis since time 0.
   double way() const { return way_; }
@@ -56,7 +59,8 @@ class MeshNodes final : public Nodes<Dim> {
  private:
   std::vector<IndexVec<Dim>> corners_;
   std::vector<char> owned_;
-  std::vector<char> led_;  ///< empty where none is
+  std::vector<char> led_;   ///< empty where none is
+  std::vector<char> free_;  ///< empty where none is
   Vec<Dim> location_size_;
   IndexVec<Dim> period_;
   std::ptrdiff_t axis_stride() const { return stride == 1 ? size() : 1; }

@@ -154,16 +154,23 @@ struct CellDeformation<3> {
   return force;
 }
 
-/// Square of the least stretch of the middle: the least eigenvalue of F^T F.
-inline Lanes least_stretch_squared(const CellDeformation<3>& now)
+/// Squares of the principal stretches: eigenvalues of F^T F. Exact where they coincide too: roots
+/// of a polynomial would lose half of the digits there, and other ranks take other steps.
+inline Spectrum squared_stretches(const Lanes (&f)[9])
 {
   const auto at = [&](int i, int j) {
-    return now.f[3 * i] * now.f[3 * j] + now.f[3 * i + 1] * now.f[3 * j + 1] +
-           now.f[3 * i + 2] * now.f[3 * j + 2];
+    return f[3 * i] * f[3 * j] + f[3 * i + 1] * f[3 * j + 1] + f[3 * i + 2] * f[3 * j + 2];
   };
-  // Exact where stretches coincide too: roots of a polynomial would lose half of the digits there,
-  // and other ranks take other steps.
-  return Spectrum({at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)}).least();
+  return Spectrum({at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)});
+}
+/// Of the middle.
+inline Lanes least_stretch_squared(const CellDeformation<3>& now)
+{
+  return squared_stretches(now.f).least();
+}
+inline Lanes largest_stretch_squared(const Lanes (&f)[9])
+{
+  return squared_stretches(f).largest();
 }
 
 namespace brick_detail {

@@ -8,6 +8,7 @@
 #include <mpm/lagrangian/plane_cell.hpp>
 #include <mpm/materials/body.hpp>
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -15,8 +16,17 @@
 
 namespace mpm {
 
+/// Where cells fail; out of reach unless said otherwise.
+struct FailureLimits {
+  double plastic_strain = std::numeric_limits<double>::infinity();
+  double stretch = std::numeric_limits<double>::infinity();  ///< largest principal one
+
+  bool limit_stretch() const { return stretch < std::numeric_limits<double>::infinity(); }
+};
+
 /// A cell is a particle: its columns are where a step of any kind has them, and `deformation` and,
 /// where the law flows, `plastic_bending` beside them.
+
 template <int Dim>
 class LocationCells {
   static constexpr int corners_of_cell = LocationMesh<Dim>::corners;
@@ -63,11 +73,32 @@ class LocationCells {
   double wave_speed_at_rest(const Body<Dim>& body, const LaneVector<double>& least_squared,
                             double floor) const;
 
+  CellNodes nodes_of(LocalIndex cell) const
+  {
+    CellNodes nodes;
+    for (int c = 0; c < corners_of_cell; ++c) nodes[std::size_t(c)] = corner_nodes_[place(cell, c)];
+    return nodes;
+  }
+
+  /// From now on stretches count from here.
+  void keep_rest(const Body<Dim>& body);
+  /// Cells beyond a limit, ascending.
+  std::vector<LocalIndex> find_failed(const Body<Dim>& body, const FailureLimits& limits) const;
+  /// J, of one cell: elastic, in bending and in corners that are held open.
+  double stored_energy(const Body<Dim>& body, const MeshNodes<Dim>& nodes, LocalIndex cell) const;
+  /// Removes cells (ascending) and their particles; the last ones fill the gaps, here, among the
+  /// particles and in `least_stretches`, which has one for each cell.
+  void erase(Body<Dim>& body, std::span<const LocalIndex> cells,
+             LaneVector<double>& least_stretches);
+  /// What `erase` changes.
+  void archive(Archive& archive);
+
   /// [blocks * corners * lanes]; lanes of padding name those of a real cell.
   const std::vector<LocalIndex>& corner_nodes() const { return corner_nodes_; }
   std::size_t bytes() const
   {
-    return corner_nodes_.size() * sizeof(LocalIndex) + 2 * least_corners_.size() * sizeof(double);
+    return corner_nodes_.size() * sizeof(LocalIndex) +
+           (2 * least_corners_.size() + rest_.size()) * sizeof(double);
   }
 
  private:
@@ -84,6 +115,15 @@ class LocationCells {
   }
   void put_forces(const CellCorners<Dim>& force, LocalIndex block, Forces forces) const;
   CellCorners<Dim> corners(const MeshNodes<Dim>& nodes, LocalIndex block) const;
+  void add_bending_energy(const Body<Dim>& body, const MeshNodes<Dim>& nodes, LocalIndex block,
+                          Lanes& sum) const;
+  Lanes squared_stretch(const Body<Dim>& body, LocalIndex block) const;
+  void copy_cell(LocalIndex from, LocalIndex to);
+  static std::size_t place(LocalIndex cell, int corner)
+  {
+    return (std::size_t(cell / lane_count) * corners_of_cell + std::size_t(corner)) * lane_count +
+           std::size_t(cell % lane_count);
+  }
 
   /// Columns of the modes without moments; none where they are 0 for good.
   const double* rest_of(const double* motion) const
@@ -103,6 +143,7 @@ class LocationCells {
   LaneVector<double> least_corners_;
   /// [blocks * lanes], of what its middle would span: the narrowest corner of a cell at rest.
   LaneVector<double> rest_shares_;
+  LaneVector<double> rest_;  ///< [blocks * Dim * Dim * lanes], F at rest; empty where it is I
   std::vector<LocalIndex> corner_nodes_;
 };
 

@@ -4,7 +4,6 @@
 
 #include <mpm/lagrangian/body_pairs.hpp>
 #include <mpm/lagrangian/cell_overlaps.hpp>
-#include <mpm/lagrangian/open_corners.hpp>
 #include <mpm/lagrangian/overlap_potential.hpp>
 #include <mpm/lagrangian/self_contact.hpp>
 #include <mpm/parallel/ghosts.hpp>
@@ -33,19 +32,13 @@ class OverlapContact final : public SelfContact<Dim> {
   static constexpr std::size_t corners_of_cell = 1 << Dim;
 
  public:
-  struct Cell {
-    std::array<LocalIndex, corners_of_cell> nodes;  ///< in the order of CellOverlaps
-    IndexVec<Dim> location;
-    double stiffness;  ///< S_c, Pa, in the plane N/m; 0 of a rigid cell: of what it meets
-    OpenCorners<Dim> open;
-    int body;             ///< whose cell it is
-    LocalIndex particle;  ///< and which
-  };
+  using typename SelfContact<Dim>::Cell;
 
   /// This rank's cells near surfaces; `size` of a location, m, and `period` in locations.
   OverlapContact(MPI_Comm comm, std::vector<Cell> cells, double kappa, BodyPairs bodies,
                  const Vec<Dim>& size, const IndexVec<Dim>& period);
 
+  void set_cells(std::vector<Cell> cells) override { cells_ = std::move(cells); }
   void find_pairs(const MeshNodes<Dim>& nodes, double skin) override;
   double skin() const override { return skin_; }
   double largest_way(const MeshNodes<Dim>& nodes) const override;

@@ -183,6 +183,15 @@ class CellBending<2> {
   return jacobian * jacobian / (0.5 * (a + b) + stdx::sqrt(half * half + c * c));
 }
 
+/// Square of the largest stretch of F, its columns one after the other.
+inline Lanes largest_stretch_squared(const Lanes (&f)[4])
+{
+  const Lanes a = f[0] * f[0] + f[1] * f[1], b = f[2] * f[2] + f[3] * f[3],
+              c = f[0] * f[2] + f[1] * f[3];
+  const Lanes half = 0.5 * (a - b);
+  return 0.5 * (a + b) + stdx::sqrt(half * half + c * c);
+}
+
 namespace plane_cell_detail {
 
 /// Of corner k: the next ones along the boundary, counter-clockwise and clockwise.

@@ -3,8 +3,11 @@
 
 #include <mpm/core/lane_vector.hpp>
 #include <mpm/grid/mesh_nodes.hpp>
+#include <mpm/lagrangian/open_corners.hpp>
 
+#include <array>
 #include <span>
+#include <vector>
 
 namespace mpm {
 
@@ -18,6 +21,18 @@ template <int Dim>
 class SelfContact {
  public:
   virtual ~SelfContact() = default;
+
+  struct Cell {
+    /// In the order of CellOverlaps.
+    std::array<LocalIndex, std::size_t(1 << Dim)> nodes;
+    IndexVec<Dim> location;
+    double stiffness;  ///< S_c, Pa, in the plane N/m; 0 of a rigid cell: of what it meets
+    OpenCorners<Dim> open;
+    int body;             ///< whose cell it is
+    LocalIndex particle;  ///< and which
+  };
+  /// Those of this rank that can meet others; `find_pairs` follows.
+  virtual void set_cells(std::vector<Cell> cells) = 0;
 
   /// Finds all pairs that can meet before a node has moved by half of `skin`, m. Collective.
   virtual void find_pairs(const MeshNodes<Dim>& nodes, double skin) = 0;

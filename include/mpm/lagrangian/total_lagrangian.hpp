@@ -3,6 +3,7 @@
 /// lattice, which share nodes where they were neighbours at the start and only there.
 
 #include <mpm/lagrangian/location_cells.hpp>
+#include <mpm/lagrangian/occupants.hpp>
 #include <mpm/lagrangian/rigid_cells.hpp>
 #include <mpm/lagrangian/self_contact.hpp>
 #include <mpm/parallel/halo.hpp>
@@ -15,7 +16,7 @@ namespace mpm {
 
 /// Central differences: velocities stand half a step before places and stresses. Places and
 /// velocities live on the nodes. There is no sort, no migration and no activity; the halo never
-/// changes, and a step has no collective.
+/// changes, and a step has no collective. Cells that fail leave their mass on the nodes.
 template <int Dim>
 class TotalLagrangian final : public Formulation<Dim> {
  public:
@@ -35,6 +36,7 @@ class TotalLagrangian final : public Formulation<Dim> {
     /// plane only.
     CornerOffsets<Dim> offsets{};
     std::vector<RigidCells<Dim>> rigid{};  ///< the same ones on every rank
+    std::vector<FailureLimits> failure{};  ///< of each body; empty: no cell fails
   };
 
   TotalLagrangian(Decomposition<Dim> decomposition, Setup setup);
@@ -66,12 +68,13 @@ class TotalLagrangian final : public Formulation<Dim> {
 
  private:
   using CellNodes = typename LocationCells<Dim>::CellNodes;
+  using ContactCell = typename SelfContact<Dim>::Cell;
   using Formulation<Dim>::steps_between_checks;
 
   void make_mesh();
   void take_rest();
   void take_rigid_bodies(std::span<const CellNodes> cells);
-  void make_contact(const std::vector<CellNodes>& cells, const OccupantOf<Dim>& occupant_of);
+  std::vector<ContactCell> contact_cells(const Occupants<Dim>& occupants) const;
   void list_node_terms();
   void add_masses();
   void give_rigid_mass();
@@ -82,6 +85,11 @@ class TotalLagrangian final : public Formulation<Dim> {
   void add_loads_on_particles();
   void look_for_pairs(double way);
   void scale_masses();
+  bool cells_may_fail() const { return !setup_.failure.empty(); }
+  std::vector<double> remove_failed();
+  void part(std::span<const double> failed_locations);
+  void list_what_is_left();
+  void archive_failure(Archive& archive);
   IndexVec<Dim> location_of(const Body<Dim>& body, LocalIndex particle) const;
   IndexVec<Dim> period() const;
   /// Whether no cell that can be deformed has a node.
@@ -109,12 +117,16 @@ class TotalLagrangian final : public Formulation<Dim> {
   double friction_work_ = 0;      ///< J, of this rank's nodes since the start
 
   std::vector<double> first_masses_;          ///< kg, of the nodes
+  std::vector<CellNodes> rigid_cells_;        ///< of all rigid bodies in turn
   std::vector<std::vector<LocalIndex>> led_;  ///< nodes of each rigid body
   /// kg, of nodes that rigid bodies alone have: so much that friction knows that they do not give
   /// way. It counts nowhere else. 0 without such bodies.
   double rigid_mass_ = 0;
   /// By masses that come and go, by friction and by rigid bodies; to this rank's nodes.
   Reaction<Dim> given_;
+
+  FailedCells failed_;        ///< of this rank
+  Occupants<Dim> occupants_;  ///< where cells may fail
 
   double time_ = 0, last_step_ = 0;
   GlobalIndex steps_ = 0;

@@ -23,6 +23,7 @@ class Spectrum {
 
   /// The smallest eigenvalue.
   Lanes least() const { return stdx::min(stdx::min(a_.a[0][0], a_.a[1][1]), a_.a[2][2]); }
+  Lanes largest() const { return stdx::max(stdx::max(a_.a[0][0], a_.a[1][1]), a_.a[2][2]); }
   /// Sum of f(eigenvalue) v (x) v.
   template <class Function>
   Symmetric function(Function f) const

@@ -24,11 +24,19 @@ using Plane = PlaneAssumption;
 
 // ---------------------------------------------------------------------------- materials
 
-/// The keys beside `name` and `law` are the law's own (materials/laws.hpp).
+/// Where a cell of total_lagrangian fails and is removed.
+struct Failure {
+  std::optional<double> plastic_strain;  ///< equivalent, of laws that have one
+  std::optional<double> stretch;         ///< largest principal one
+  bool operator==(const Failure&) const = default;
+};
+
+/// The other keys are the law's own (materials/laws.hpp).
 struct Material {
   std::string name = "cell_wall";
   OneOf<LawRow> law = "von_mises";
   ParameterValues values{};
+  std::optional<Failure> failure{};
   /// kg/m^3; 0 for a law without one.
   double density() const { return values.has("density") ? values.number("density") : 0; }
   bool operator==(const Material&) const = default;

@@ -30,6 +30,8 @@ inline constexpr std::string_view section<SceneKeys> = "scene";
 template <>
 inline constexpr std::string_view section<Material> = "material";
 template <>
+inline constexpr std::string_view section<Failure> = "failure";
+template <>
 inline constexpr std::string_view section<Specimen> = "specimen";
 template <>
 inline constexpr std::string_view section<GrayBand> = "gray band";
@@ -63,6 +65,8 @@ template <>
 const std::vector<Parameter<SceneKeys>>& parameters<SceneKeys>();
 template <>
 const std::vector<Parameter<Material>>& parameters<Material>();
+template <>
+const std::vector<Parameter<Failure>>& parameters<Failure>();
 template <>
 const std::vector<Parameter<Specimen>>& parameters<Specimen>();
 template <>

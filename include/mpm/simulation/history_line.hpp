@@ -31,6 +31,8 @@ struct HistoryLine {
   double overlapped_area = 0;     ///< m^2, in space volume, m^3
   GlobalIndex contact_pairs = 0;  ///< of cells, or particle and wall
   double friction_work = 0;       ///< J, in contact between bodies, since the start
+  GlobalIndex failed_cells = 0;   ///< since the start
+  double failed_energy = 0;       ///< J, that they had stored
   double time_step = 0;           ///< s
   GlobalIndex behind_piston = 0, outside_walls = 0;  ///< particles
 
@@ -38,9 +40,11 @@ struct HistoryLine {
   double stress() const { return 0.5 * (piston_stress + edge_stress); }
 };
 
-/// What a history can have: stresses with a piston, one more with a load cell; contact; friction.
+/// What a history can have: stresses with a piston, one more with a load cell; contact; friction;
+/// cells that fail.
 struct HistoryKind {
-  bool piston = false, load_cell = false, contact = false, friction = false, space = false;
+  bool piston = false, load_cell = false, contact = false, friction = false, space = false,
+       failure = false;
 };
 std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind);
 std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind);

@@ -18,14 +18,16 @@ struct Sums {
   double mass = 0;                       ///< kg
   double kinetic_energy = 0;             ///< J
   double elastic_energy = 0;             ///< J
-  double plastic_work = 0;               ///< J
+  double plastic_work = 0;               ///< J, with that of cells that failed
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
   std::optional<ContactSums> contact{};
+  std::optional<FailedCells> failed{};
 
   /// Work of the stresses, stored or dissipated, and what contact stores, J.
   double stress_work() const
   {
-    return elastic_energy + plastic_work + (contact ? contact->energy : 0.0);
+    return elastic_energy + plastic_work + (contact ? contact->energy : 0.0) +
+           (failed ? failed->energy : 0.0);
   }
 };
 

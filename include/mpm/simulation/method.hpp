@@ -18,6 +18,8 @@ std::optional<double> stable_cfl_of(const scene::Numerics& numerics);
 double default_cfl(const scene::Numerics& numerics);
 /// Least stretch of cells that keep their mass. Crushing is slow, free motion need not be.
 double mass_scaling_of(const scene::Scene& scene);
+/// Whether a material says where its cells fail.
+bool cells_may_fail(const scene::Scene& scene);
 /// When a step leaves the stresses, counted from the moment of the velocities, in steps.
 double stress_moment_of(const scene::Numerics& numerics);
 StepExtras extras_of(const scene::Numerics& numerics);

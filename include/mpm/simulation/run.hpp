@@ -49,6 +49,7 @@ struct RunResult {
   Cooperation cooperation;
   /// Of a run with a piston.
   std::optional<analysis::CompressionProperties> properties;
+  std::vector<std::string> warnings;  ///< of what has happened
   std::vector<GoingBack> goings_back;
   GlobalIndex repeated_steps = 0;
 

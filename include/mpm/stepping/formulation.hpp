@@ -38,6 +38,14 @@ struct Counters {
   void archive(Archive& archive);
 };
 
+/// Cells that failed since the start and what they took along, of this rank.
+struct FailedCells {
+  GlobalIndex cells = 0, id_sum = 0;
+  double mass = 0;          ///< kg, which stays on the nodes
+  double energy = 0;        ///< J, that they, and contact with them, had stored
+  double plastic_work = 0;  ///< J
+};
+
 /// What particles do not carry themselves, on this rank, at present.
 template <int Dim>
 struct Carried {
@@ -48,6 +56,7 @@ struct Carried {
   /// Of the contact of bodies with themselves and others, and with walls that push, where there is
   /// one.
   std::optional<ContactSums> contact{};
+  std::optional<FailedCells> failed{};  ///< where cells may fail
 };
 
 /// Steps bodies of particles on this rank. All members but the plain look-ups are collective.

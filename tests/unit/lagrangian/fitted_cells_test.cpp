@@ -2,6 +2,7 @@
 #include <mpm/lagrangian/location_cells.hpp>
 #include <mpm/materials/hencky.hpp>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <functional>
 #include <random>
@@ -34,6 +35,7 @@ class Block {
       }
     cells_.emplace(*body_, cells, size);
     cells_->take_rest(*body_, nodes_, thickness);
+    cells_->keep_rest(*body_);
   }
 
   /// From rest in one step.
@@ -66,6 +68,22 @@ class Block {
       sum += body_->law->elastic_energy(
           body_->particles.state().block(p / lane_count))[p % lane_count];
     return sum;
+  }
+  std::vector<LocalIndex> beyond_stretch(double limit) const
+  {
+    return cells_->find_failed(*body_, {.stretch = limit});
+  }
+  double energy_of(LocalIndex cell) const { return cells_->stored_energy(*body_, nodes_, cell); }
+  void erase(const std::vector<LocalIndex>& cells)
+  {
+    LaneVector<double> least_stretches;
+    cells_->find_least_stretches(nodes_, least_stretches);
+    cells_->erase(*body_, cells, least_stretches);
+    LaneVector<double> found;
+    cells_->find_least_stretches(nodes_, found);
+    ASSERT_EQ(least_stretches.size(), found.size());
+    for (LocalIndex p = 0; p < body_->particles.size(); ++p)
+      EXPECT_EQ(least_stretches[std::size_t(p)], found[std::size_t(p)]);
   }
   const std::vector<Vec<2>>& forces() const { return forces_; }
   const ParticleStore& particles() const { return body_->particles; }
@@ -167,6 +185,32 @@ TEST(FittedCells, HaveForcesThatAreTheGradientOfTheirEnergy)
           (at(node, axis, step)->energy() - at(node, axis, -step)->energy()) / (2 * step);
       EXPECT_NEAR(here->forces()[std::size_t(node)][axis], -slope, 1e-7) << node << ", " << axis;
     }
+}
+
+TEST(FittedCells, FailByTheirStretchSinceRest)
+{
+  Block block;
+  EXPECT_TRUE(block.beyond_stretch(1 + 1e-12).empty());
+  const Eigen::Rotation2Dd turn(0.7), along(0.3);
+  const Eigen::Matrix2d stretch =
+      turn * along * Eigen::Vector2d(1.2, 0.9).asDiagonal() * along.inverse().toRotationMatrix();
+  block.move([&](const Vec<2>& x) -> Vec<2> { return stretch * x - x; });
+  EXPECT_TRUE(block.beyond_stretch(1.2 + 1e-12).empty());
+  EXPECT_EQ(block.beyond_stretch(1.2 - 1e-12).size(), std::size_t(across * across));
+}
+
+TEST(FittedCells, LeaveTheEnergyOfTheOthersWhenTheyAreErased)
+{
+  Block block;
+  block.move([](const Vec<2>& x) -> Vec<2> { return {0.2 * x[0] * x[1], 0.3 * x[0] * x[0]}; });
+  const double whole = block.energy();
+  const std::vector<LocalIndex> erased{0, 3, 4, 8};
+  double gone = 0;
+  for (const LocalIndex cell : erased) gone += block.energy_of(cell);
+  EXPECT_GT(gone, 0);
+  block.erase(erased);
+  EXPECT_EQ(block.particles().size(), across * across - 4);
+  EXPECT_NEAR(block.energy(), whole - gone, 1e-14 * whole);
 }
 
 }  // namespace

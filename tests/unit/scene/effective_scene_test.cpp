@@ -26,6 +26,14 @@ TEST_F(EffectiveScene, OfTheSmallestReadsBackTheSame)
   expect_round_trip(smallest);
 }
 
+TEST_F(EffectiveScene, OfCellsThatMayFailReadsBackTheSame)
+{
+  expect_round_trip(smallest + R"(numerics: {formulation: total_lagrangian}
+material: {law: isotropic, density: 1 g/cm^3, youngs_modulus: 1 GPa, poisson_ratio: 0.3,
+  failure: {stretch: 3.25}}
+)");
+}
+
 TEST_F(EffectiveScene, OfAMicrographWithEveryKeyReadsBackTheSame)
 {
   expect_round_trip(R"(title: "all: of 'it' \"quoted\""
