@@ -16,8 +16,6 @@ namespace {
 /// Way that nodes may have before pairs of cells are looked for again, in locations, at least; and
 /// in the way of the fastest node from one check to the next.
 constexpr double least_way = 0.25, checks_ahead = 3;
-/// Of the fastest node's speed at one check, what nodes may have until the next.
-constexpr double speeding_up = 1.5;
 
 }  // namespace
 
@@ -112,9 +110,9 @@ void TotalLagrangian<Dim>::check()
   for (std::size_t b = 0; b < cells_.size(); ++b)
     cells_[b].find_least_stretches(*nodes_, least_stretches_[b]);
   if (contact_) {
-    const double fastest = std::max(agreed_.largest_speed, largest_speed_);
-    contact_->count_stiffness(least_stretches_,
-                              speeding_up * steps_between_checks * last_step_ * fastest);
+    // Both sides may come as fast as the fastest node of the last check, which all ranks know.
+    const double nearer = 2 * steps_between_checks * last_step_ * agreed_.largest_speed;
+    contact_->count_stiffness(least_stretches_, nearer);
   }
   const std::vector<double> failed = remove_failed();
   for (std::size_t b = 0; b < cells_.size(); ++b) {
@@ -229,7 +227,7 @@ template <int Dim>
 void TotalLagrangian<Dim>::look_for_pairs(double way)
 {
   const double to_next_check = steps_between_checks * last_step_ * agreed_.largest_speed;
-  if (way + speeding_up * to_next_check < 0.5 * contact_->skin()) return;
+  if (way + 1.5 * to_next_check < 0.5 * contact_->skin()) return;
   contact_->find_pairs(*nodes_, 2 * std::max(least_way * setup_.location_size.minCoeff(),
                                              checks_ahead * to_next_check));
   contact_->measure(*nodes_);

@@ -29,14 +29,14 @@ class Contact(ProgramTest):
             error = self.line_error(history, (0.004, 0.01))
             self.assertAlmostEqual(error, 1 / (1 + softer) - 1, delta=0.015)
             self.assertLess(max(abs(e) for e in history["energy_error"][-50:]), 0.01)
-            self.assertLess(max(history["momentum_error"]), 1e-13)
+            self.assertLess(max(history["momentum_error"]), 1e-12)
             self.assertGreater(history["contact_energy"][-1], 0)
 
     def test_a_block_pressed_on_another_carries_the_exact_stress(self):
         history = History(self.results("two_blocks", ranks=2))
         self.assertAlmostEqual(self.line_error(history, (0.004, 0.01)), 0, delta=0.02)
         self.assertLess(max(abs(e) for e in history["energy_error"][-50:]), 0.02)
-        self.assertLess(max(history["momentum_error"]), 1e-13)
+        self.assertLess(max(history["momentum_error"]), 1e-12)
 
     def test_blocks_of_cells_lie_on_each_other_as_deep_as_the_contact_is_soft(self):
         """Of the 40 locations of the block a quarter of one times the strain, as the pressure is 4 C
@@ -48,7 +48,7 @@ class Contact(ProgramTest):
         self.assertAlmostEqual(self.line_error(history, (0.004, 0.01)), 1 / (1 + softer) - 1,
                                delta=0.003)
         self.assertLess(max(abs(e) for e in history["energy_error"][-50:]), 0.001)
-        self.assertLess(max(history["momentum_error"]), 1e-13)
+        self.assertLess(max(history["momentum_error"]), 1e-12)
 
     def test_a_plate_of_one_cell_squeezed_from_both_sides_stays_and_carries_the_stress(self):
         """Two faces, each as deep as 4 C (T + T^3 / 0.03^2) takes, and half of the onset."""
@@ -82,7 +82,7 @@ class Contact(ProgramTest):
                                delta=bound * scale)
         self.assertAlmostEqual(history["friction_work"][-1], friction * weight * way,
                                delta=bound * scale)
-        self.assertLess(max(history["momentum_error"]), 1e-13)
+        self.assertLess(max(history["momentum_error"]), 1e-12)
 
     def test_a_block_slides_down_an_incline_or_stays(self):
         for friction in (0, 0.3, 1):

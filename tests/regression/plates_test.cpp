@@ -98,10 +98,10 @@ double closest(const Meeting& meeting)
       make_formulation(scene, preparation.layout, decomposition,
                        make_model(scene, preparation.specimen, preparation.layout, decomposition));
   const double angle = meeting.angle * std::numbers::pi / 180;
-  const double dt = time_step_of(preparation.layout).first();
+  const TimeStep time_step = time_step_of(preparation.layout);
   double gap = Faces(*formulation, angle).gap(), before = gap;
   for (bool approach = true; approach;) {
-    for (int k = 0; k < 5; ++k) formulation->step(dt);
+    for (int k = 0; k < 5; ++k) formulation->step(time_step.next(*formulation));
     const double now = Faces(*formulation, angle).gap();
     approach = now < before;
     gap = std::min(gap, now);
