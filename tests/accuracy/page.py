@@ -11,7 +11,7 @@ import page_benchmarks
 import page_contact
 import page_loblolly
 import runs
-from words import percent, seconds, wrapped
+from words import filled_in, finished, percent, seconds
 
 PAGE = runs.PROJECT / "docs" / "accuracy.md"
 TEXT = Path(__file__).with_name("page.md")
@@ -60,15 +60,8 @@ def single(found):
 
 def written():
     """The page."""
-    page = TEXT.read_text()
-    for key, value in values().items():
-        if "{" + key + "}" not in page:
-            raise RuntimeError(f"{TEXT.name} does not use {key}")
-        page = page.replace("{" + key + "}", value.rstrip("\n"))
-    page = re.sub(r"{(error|seconds) (\w+), ([^,{}]+), (\d+)}", single, page)
-    if "{" in page:
-        raise RuntimeError(f"{TEXT.name}: nothing is known for {page[page.index('{'):][:30]}")
-    return wrapped(page)
+    page = re.sub(r"{(error|seconds) (\w+), ([^,{}]+), (\d+)}", single, filled_in(TEXT, values()))
+    return finished(TEXT, page)
 
 
 def main():

@@ -37,6 +37,23 @@ def table(heads, lines):
                      + ["| " + " | ".join(line) + " |" for line in lines]) + "\n"
 
 
+def filled_in(text, values):
+    """What the file `text` says, with these values in the place of their names in braces."""
+    page = text.read_text()
+    for key, value in values.items():
+        if "{" + key + "}" not in page:
+            raise RuntimeError(f"{text.name} does not use {key}")
+        page = page.replace("{" + key + "}", value.rstrip("\n"))
+    return page
+
+
+def finished(text, page):
+    """The page, wrapped; nothing is left in braces of what the file `text` names."""
+    if "{" in page:
+        raise RuntimeError(f"{text.name}: nothing is known for {page[page.index('{'):][:30]}")
+    return wrapped(page)
+
+
 def wrapped(page):
     """Paragraphs and lists in lines of 100; tables, code, headings and figures as they are."""
     def filled(block):
