@@ -33,10 +33,10 @@ class LocationCells {
 
  public:
   using CellNodes = std::array<LocalIndex, std::size_t(corners_of_cell)>;
-  /// Where forces go, N. In the plane to [blocks * block_values], each cell's apart, for nodes that
-  /// gather them in lanes: component d of corner c of lane l at (2 c + d) * lane_count + l. In
-  /// space that would be as much memory to go through as all else together: they are added to the
-  /// nodes'.
+  /// Where forces go, N. In the plane to [blocks * block_values], aligned for lanes, each cell's
+  /// apart, for nodes that gather them in lanes: component d of corner c of lane l at
+  /// (2 c + d) * lane_count + l. In space that would be as much memory to go through as all else
+  /// together: they are added to the nodes'.
   using Forces = std::conditional_t<Dim == 2, double*, NodeFields<Dim>*>;
   static constexpr int block_values = Dim * corners_of_cell * lane_count;
 

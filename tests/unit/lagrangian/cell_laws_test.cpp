@@ -54,7 +54,7 @@ class Patch {
       for (int d = 0; d < 2; ++d) fields.updated_of(node)[d] = way[d];
     }
     nodes_->move(fields, 1);
-    std::vector<double> forces(
+    LaneVector<double> forces(
         std::size_t(body_.particles.blocks()) * LocationCells<2>::block_values, 0.0);
     ASSERT_FALSE(cells_->update(body_, *nodes_, 1, forces.data()));
     force_.assign(std::size_t(nodes_->size()), Vec<2>::Zero());
