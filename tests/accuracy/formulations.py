@@ -62,7 +62,7 @@ def crop(x):
                      f"threshold: 150, crop: [{x}, 60, 90, 70]}}"])
 
 
-def wood(name, size, cells, levels=([1, 2, 4], [1, 2])):
+def wood(name, size, cells, levels=([1, 2, 4], [1, 2, 4])):
     return Geometry(WOOD / f"{name}.yaml", size, cells, levels, [FAST])
 
 
@@ -75,7 +75,7 @@ def geometries():
             "thin_ring": Geometry(RING, [100e-6, 100e-6], [10, 10], ([1, 2, 4, 8, 16], [1, 2, 4, 8]),
                                   [thin], drawn=True),
             "earlywood": crop(40), "latewood": crop(190),
-            "loblolly_radial": wood("loblolly_radial", *loblolly, ([1, 2, 4, 8], [1, 2, 4])),
+            "loblolly_radial": wood("loblolly_radial", *loblolly, ([1, 2, 4, 8], [1, 2, 4, 8])),
             "loblolly_tangential": wood("loblolly_tangential", *loblolly),
             "poplar_radial": wood("poplar_radial", *poplar),
             "poplar_tangential": wood("poplar_tangential", *poplar),
@@ -92,7 +92,7 @@ def real(folder, work):
         scene.write_text(f"specimen: {{micrograph: {picture}, pixel_size: {pixel} um, threshold: 128}}\n"
                          "loading: {piston: right, speed: 50 m/s, strain: 40 %}\n")
         found[name] = Geometry(scene, [1e-6 * pixel * width, 1e-6 * pixel * abs(height)],
-                               [75, round(75 * abs(height) / width)], ([1, 2, 4], [1, 2]))
+                               [75, round(75 * abs(height) / width)], ([1, 2, 4], [1, 2, 4]))
     return found
 
 
