@@ -1,9 +1,9 @@
 #include <mpm/lagrangian/location_mesh.hpp>
+#include <mpm/lagrangian/location_table.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <map>
-#include <set>
 #include <tuple>
 
 namespace mpm {
@@ -35,6 +35,14 @@ NodeKey<Dim> key_of(const IndexVec<Dim>& at, int body)
   return key;
 }
 
+template <int Dim>
+IndexVec<Dim> corner_of(const NodeKey<Dim>& key)
+{
+  IndexVec<Dim> corner;
+  for (int d = 0; d < Dim; ++d) corner[d] = key[std::size_t(Dim - 1 - d)];
+  return corner;
+}
+
 /// A rank with cells at a node, and whether it sees the node at the upper end of an axis (1) that
 /// begins again there or elsewhere (0).
 template <int Dim>
@@ -42,6 +50,28 @@ struct Reacher {
   int rank;
   Key<Dim> image;
   auto operator<=>(const Reacher&) const = default;
+};
+
+/// In order, each once.
+template <int Dim>
+class Reachers {
+ public:
+  void insert(const Reacher<Dim>& reacher)
+  {
+    const auto at = std::lower_bound(begin(), end(), reacher);
+    if (at != end() && *at == reacher) return;
+    const auto place = std::size_t(at - begin());
+    std::copy_backward(begin() + place, end(), found_.begin() + count_ + 1);
+    found_[place] = reacher;
+    ++count_;
+  }
+  std::size_t size() const { return std::size_t(count_); }
+  const Reacher<Dim>* begin() const { return found_.data(); }
+  const Reacher<Dim>* end() const { return found_.data() + count_; }
+
+ private:
+  std::array<Reacher<Dim>, std::size_t(LocationMesh<Dim>::corners)> found_{};
+  int count_ = 0;
 };
 
 template <int Dim>
@@ -79,10 +109,10 @@ class Lattice {
     return std::countr_zero(pairs_.joined(bodies_around(corner), pairs_.bit_of(body)));
   }
 
-  std::set<Reacher<Dim>> reachers(const IndexVec<Dim>& corner, int first_body) const
+  Reachers<Dim> reachers(const IndexVec<Dim>& corner, int first_body) const
   {
     const unsigned joined = pairs_.joined(bodies_around(corner), pairs_.bit_of(first_body));
-    std::set<Reacher<Dim>> found;
+    Reachers<Dim> found;
     for (int c = 0; c < LocationMesh<Dim>::corners; ++c) {
       const IndexVec<Dim> offset = LocationMesh<Dim>::offset_of(c);
       const IndexVec<Dim> cell = wrapped(corner - offset);
@@ -117,6 +147,45 @@ class Lattice {
   IndexVec<Dim> period_;
 };
 
+/// Numbers of the nodes at corners of the lattice.
+template <int Dim>
+class NodeNumbers {
+ public:
+  explicit NodeNumbers(const IndexBox<Dim>& corners) : at_(corners, -1) {}
+
+  /// May come again.
+  void add(const IndexVec<Dim>& corner, int first_body)
+  {
+    LocalIndex& last = at_.at(corner);
+    for (LocalIndex n = last; n >= 0; n = before_[std::size_t(n)])
+      if (nodes_[std::size_t(n)][Dim] == first_body) return;
+    before_.push_back(last);
+    last = LocalIndex(nodes_.size());
+    nodes_.push_back(key_of<Dim>(corner, first_body));
+  }
+  /// Once all are there. Returns them in the order of their numbers.
+  const std::vector<NodeKey<Dim>>& put_in_order()
+  {
+    before_ = {};
+    std::ranges::sort(nodes_);
+    for (std::size_t n = nodes_.size(); n-- > 0;)
+      at_.at(corner_of<Dim>(nodes_[n])) = LocalIndex(n);  // the first of a corner stays
+    return nodes_;
+  }
+  /// Of one that was added.
+  LocalIndex operator()(const IndexVec<Dim>& corner, int first_body) const
+  {
+    LocalIndex number = at_(corner);
+    while (nodes_[std::size_t(number)][Dim] != first_body) ++number;
+    return number;
+  }
+
+ private:
+  LocationTable<Dim, LocalIndex> at_;
+  std::vector<NodeKey<Dim>> nodes_;
+  std::vector<LocalIndex> before_;  ///< of each node: the one added before it at its corner, or -1
+};
+
 /// One term of the sum at a node, as both ranks see it: the lower rank's image first.
 template <int Dim>
 struct Term {
@@ -130,26 +199,26 @@ struct Term {
   }
 };
 
-/// `first_body`: of each node.
+/// `nodes`: in the order of their numbers.
 template <int Dim>
-void share(const Lattice<Dim>& lattice, int rank, const std::map<NodeKey<Dim>, LocalIndex>& number,
-           const std::vector<int>& first_body, LocationMesh<Dim>& mesh)
+void share(const Lattice<Dim>& lattice, int rank, const NodeNumbers<Dim>& number,
+           const std::vector<NodeKey<Dim>>& nodes, LocationMesh<Dim>& mesh)
 {
   std::map<int, std::vector<Term<Dim>>> terms;
   std::vector<std::pair<Term<Dim>, LocalIndex>> own;  // with the node of the image
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     const IndexVec<Dim> node = lattice.folded(mesh.nodes[n]);
-    const int body = first_body[n];
-    const auto reachers = lattice.reachers(node, body);
+    const int body = nodes[n][Dim];
+    const Reachers<Dim> reachers = lattice.reachers(node, body);
     const Key<Dim> mine = lattice.image_of(mesh.nodes[n]);
-    mesh.owned.push_back(reachers.empty() || *reachers.begin() == Reacher<Dim>{rank, mine});
+    mesh.owned.push_back(reachers.size() == 0 || *reachers.begin() == Reacher<Dim>{rank, mine});
     if (reachers.size() < 2) continue;
     const LocalIndex position = LocalIndex(mesh.shared.nodes.size());
     mesh.shared.nodes.push_back(LocalIndex(n));
     for (const auto& [other, its] : reachers) {
       if (other == rank)
         own.push_back({{key_of<Dim>(node, body), its, mine, position},
-                       number.at(key_of<Dim>(lattice.image_at(node, its), body))});
+                       number(lattice.image_at(node, its), body)});
       else if (other < rank)
         terms[other].push_back({key_of<Dim>(node, body), its, mine, position});
       else
@@ -177,28 +246,29 @@ LocationMesh<Dim> make_location_mesh(std::span<const IndexVec<Dim>> cells, int r
                                      const IndexVec<Dim>& period)
 {
   const Lattice<Dim> lattice(occupant_of, pairs, period);
-  const auto node_of = [&](const IndexVec<Dim>& cell, int corner) {
-    const IndexVec<Dim> at = cell + LocationMesh<Dim>::offset_of(corner);
-    return key_of<Dim>(at, lattice.first_body(at, cell));
+  const auto for_each_corner = [&](const IndexVec<Dim>& cell, auto visit) {
+    for (int c = 0; c < LocationMesh<Dim>::corners; ++c) {
+      const IndexVec<Dim> at = cell + LocationMesh<Dim>::offset_of(c);
+      visit(c, at, lattice.first_body(at, cell));
+    }
   };
   LocationMesh<Dim> mesh;
-  std::map<NodeKey<Dim>, LocalIndex> number;
-  std::vector<int> first_body;
+  IndexBox<Dim> corners = box_around<Dim>(cells);
+  if (!cells.empty()) corners.upper.array() += 1;
+  NodeNumbers<Dim> number(corners);
   for (const IndexVec<Dim>& cell : cells)
-    for (int c = 0; c < LocationMesh<Dim>::corners; ++c) number[node_of(cell, c)] = 0;
-  for (auto& [key, node] : number) {
-    node = LocalIndex(mesh.nodes.size());
-    IndexVec<Dim> at;
-    for (int d = 0; d < Dim; ++d) at[d] = key[std::size_t(Dim - 1 - d)];
-    mesh.nodes.push_back(at);
-    first_body.push_back(key[Dim]);
-  }
+    for_each_corner(cell, [&](int, const IndexVec<Dim>& at, int body) { number.add(at, body); });
+  const std::vector<NodeKey<Dim>>& nodes = number.put_in_order();
+  mesh.nodes.reserve(nodes.size());
+  for (const NodeKey<Dim>& node : nodes) mesh.nodes.push_back(corner_of<Dim>(node));
+  mesh.cells.reserve(cells.size());
   for (const IndexVec<Dim>& cell : cells) {
-    auto& corners = mesh.cells.emplace_back();
-    for (int c = 0; c < LocationMesh<Dim>::corners; ++c)
-      corners[std::size_t(c)] = number.at(node_of(cell, c));
+    auto& of_cell = mesh.cells.emplace_back();
+    for_each_corner(cell, [&](int c, const IndexVec<Dim>& at, int body) {
+      of_cell[std::size_t(c)] = number(at, body);
+    });
   }
-  share<Dim>(lattice, rank, number, first_body, mesh);
+  share<Dim>(lattice, rank, number, nodes, mesh);
   return mesh;
 }
 

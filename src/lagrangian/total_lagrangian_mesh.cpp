@@ -54,11 +54,11 @@ void TotalLagrangian<Dim>::make_mesh()
 
   // Locations of this rank, and those of others within two of a border between ranks.
   std::vector<IndexVec<Dim>> cells;
-  Occupants<Dim> taken;
+  std::vector<Occupant> occupants;
   std::vector<double> at_borders;
   const auto add = [&](const IndexVec<Dim>& location, int body) {
     cells.push_back(location);
-    taken.put(location, {me, body});
+    occupants.push_back({me, body});
     bool at_border = false;
     const IndexVec<Dim> below = (location.array() - 2).matrix(),
                         above = (location.array() + 2).matrix();
@@ -80,11 +80,14 @@ void TotalLagrangian<Dim>::make_mesh()
   }
   const MPI_Comm comm = decomposition_.comm();
   const std::vector<double> all = joined_over_ranks(comm, at_borders);
+  std::vector<IndexVec<Dim>> known = cells;
   for (std::size_t k = 0; k < all.size(); k += Dim + 1) {
-    IndexVec<Dim> location;
+    IndexVec<Dim>& location = known.emplace_back();
     for (int d = 0; d < Dim; ++d) location[d] = LocalIndex(all[k + std::size_t(d)]);
-    taken.put(location, {owner_of(cell_of(location)), int(all[k + Dim])});
+    occupants.push_back({owner_of(cell_of(location)), int(all[k + Dim])});
   }
+  Occupants<Dim> taken(box_around<Dim>(known));
+  for (std::size_t k = 0; k < known.size(); ++k) taken.put(known[k], occupants[k]);
   const OccupantOf<Dim> occupant_of = [&](const IndexVec<Dim>& location) {
     return taken(location);
   };

@@ -49,17 +49,13 @@ template <int Dim, class IsTaken>
 bool near_surface(const IndexVec<Dim>& location, const IsTaken& is_taken)
 {
   bool found = false;
-  const IndexVec<Dim> one = IndexVec<Dim>::Constant(1);
-  for_each_index(IndexBox<Dim>{location - one, location + 2 * one}, [&](IndexVec<Dim> at) {
-    if (found) return;
-    found = !is_taken(at);
-    for (int d = 0; d < Dim && !found; ++d)
-      for (const int side : {-1, 1}) {
-        at[d] += side;
-        found = found || !is_taken(at);
-        at[d] -= side;
-      }
-  });
+  const IndexVec<Dim> reach = IndexVec<Dim>::Constant(contact_reach);
+  for_each_index(IndexBox<Dim>{-reach, (reach.array() + 1).matrix()},
+                 [&](const IndexVec<Dim>& way) {
+                   // Beyond one location only straight on from one of those.
+                   if (!found && (way.cwiseAbs().array() == contact_reach).count() <= 1)
+                     found = !is_taken(location + way);
+                 });
   return found;
 }
 

@@ -3,9 +3,9 @@
 
 #include <mpm/core/archive.hpp>
 #include <mpm/lagrangian/location_mesh.hpp>
+#include <mpm/lagrangian/location_table.hpp>
 
 #include <array>
-#include <map>
 #include <set>
 
 namespace mpm {
@@ -14,19 +14,21 @@ namespace mpm {
 template <int Dim>
 class Occupants {
  public:
-  /// Whoever comes first has it.
+  Occupants() = default;
+  explicit Occupants(const IndexBox<Dim>& box) : taken_(box, Occupant{}) {}
+
+  /// In the box; whoever comes first has it.
   void put(const IndexVec<Dim>& location, const Occupant& occupant)
   {
-    taken_.try_emplace(key_of(location), occupant);
+    if (Occupant& at = taken_.at(location); at.body < 0) at = occupant;
   }
   /// A cell that has failed leaves it empty.
   void remove(const IndexVec<Dim>& location) { removed_.insert(key_of(location)); }
 
   Occupant operator()(const IndexVec<Dim>& location) const
   {
-    const Key key = key_of(location);
-    const auto found = taken_.find(key);
-    return found == taken_.end() || removed_.contains(key) ? Occupant{} : found->second;
+    if (!removed_.empty() && removed_.contains(key_of(location))) return {};
+    return taken_(location);
   }
 
   /// What has been removed.
@@ -52,7 +54,7 @@ class Occupants {
     return key;
   }
 
-  std::map<Key, Occupant> taken_;
+  LocationTable<Dim, Occupant> taken_;
   std::set<Key> removed_;
 };
 
