@@ -46,19 +46,41 @@ void OverlapContact<Dim>::find_boxes()
     boxes_[c] = Overlaps::box_of(values_of(LocalIndex(c)));
 }
 
+/// Pairs are listed so that they last for many steps, and few of them come close in the next ones.
+template <int Dim>
+void OverlapContact<Dim>::list_close()
+{
+  constexpr double margin = 0.15;  // of a location: most often enough for 10 steps
+  const double distance = margin * size_.minCoeff();
+  if (boxes_then_.size() == boxes_.size()) {
+    Box ways{};
+    for (std::size_t c = 0; c < boxes_.size(); ++c)
+      for (std::size_t d = 0; d < ways.size(); ++d)
+        ways[d] = std::max(ways[d], std::abs(boxes_[c][d] - boxes_then_[c][d]));
+    if (2 * std::ranges::max(ways) < distance) return;
+  }
+  boxes_then_ = boxes_;
+  close_.clear();
+  for (std::size_t k = 0; k < pairs_.size(); ++k)
+    if (meet<Dim>(boxes_[std::size_t(pairs_[k].first)], boxes_[std::size_t(pairs_[k].second)],
+                  distance))
+      close_.push_back(LocalIndex(k));
+}
+
 template <int Dim>
 void OverlapContact<Dim>::find_overlaps()
 {
   near_.clear();
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    auto [a, b] = pairs_[k];
+  for (const LocalIndex k : close_) {
+    auto [a, b] = pairs_[std::size_t(k)];
     if (!meet<Dim>(boxes_[std::size_t(a)], boxes_[std::size_t(b)], 0)) continue;
-    if (turned_[k]) std::swap(a, b);
-    near_.push_back({k, values_of(a), values_of(b)});
+    if (turned_[std::size_t(k)]) std::swap(a, b);
+    near_.push_back({std::size_t(k), values_of(a), values_of(b)});
   }
+  // Of the others they are 0.
+  for (std::size_t entry = 0; entry < found_.size(); ++entry)
+    overlaps_[found_.pair(entry)] = faces_[found_.pair(entry)] = 0;
   found_.find(near_);
-  overlaps_.assign(pairs_.size(), 0.0);
-  faces_.assign(pairs_.size(), 0.0);
   for (std::size_t entry = 0; entry < found_.size(); ++entry) {
     if (!(found_.overlap(entry) > 0)) continue;
     overlaps_[found_.pair(entry)] += found_.overlap(entry);
@@ -74,13 +96,15 @@ void OverlapContact<Dim>::measure(const MeshNodes<Dim>& nodes)
     Overlaps::shift(shift_of(image), values.data());
   });
   find_boxes();
+  list_close();
   find_overlaps();
+  for (const Touch& touch : touches_) sides_[std::size_t(touch.side)] = 0;
   list_touches();
-  std::fill(sides_.begin(), sides_.end(), 0.0);
   energy_ = 0;
   const std::vector<LocalIndex>& first = first_touch_;
   for (std::size_t c = 0; c < cells_.size(); ++c)
-    answer_overlaps(c, {&touches_[std::size_t(first[c])], std::size_t(first[c + 1] - first[c])});
+    if (first[c] < first[c + 1])
+      answer_overlaps(c, {&touches_[std::size_t(first[c])], std::size_t(first[c + 1] - first[c])});
   side_ghosts_.update(sides_, 1);
 }
 
@@ -96,7 +120,11 @@ void OverlapContact<Dim>::list_touches()
       if (overlaps_[k] > 0 && is_last_of_pair(entry)) visit(k, pairs_[k]);
     }
   };
-  for_each_touching([&](std::size_t, const Pair& pair) {
+  for_each_touching([&](std::size_t k, const Pair& pair) {
+    if (!was_touching_[k]) {
+      was_touching_[k] = 1;
+      touched_.push_back(LocalIndex(k));
+    }
     ++first[std::size_t(pair.first)];
     if (pair.second < cells()) ++first[std::size_t(pair.second)];
     touching_ += pair.second < cells() ? 2 : 1;
@@ -200,16 +228,16 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
   constexpr double expected = 2;
   side_ghosts_.update(stiffnesses_, 1);
   std::vector<double> pressed(cells_.size(), 0.0);
-  for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const auto other = std::size_t(second_side_[k]);
+  for (const LocalIndex pair : touched_) {
+    const auto k = std::size_t(pair), other = std::size_t(second_side_[k]);
     const double both = 0.5 * (stiffnesses_[k] + stiffnesses_[other]);
     pressed[std::size_t(pairs_[k].first)] += parts_of_face_[k] * both;
     if (pairs_[k].second < cells())
       pressed[std::size_t(pairs_[k].second)] += parts_of_face_[other] * both;
   }
   for (const Pair& pair : pairs_) {
-    if (are_neighbours(pair) ||
-        !meet<Dim>(boxes_[std::size_t(pair.first)], boxes_[std::size_t(pair.second)], way))
+    if (!meet<Dim>(boxes_[std::size_t(pair.first)], boxes_[std::size_t(pair.second)], way) ||
+        are_neighbours(pair))
       continue;
     for (const LocalIndex cell : {pair.first, pair.second})
       if (cell < cells())
@@ -221,8 +249,12 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
     if (harder > 1)
       least_stretches[std::size_t(cells_[c].body)][std::size_t(cells_[c].particle)] /= harder;
   }
-  std::fill(stiffnesses_.begin(), stiffnesses_.end(), 0.0);
-  std::fill(parts_of_face_.begin(), parts_of_face_.end(), 0.0);
+  for (const LocalIndex pair : touched_) {
+    const auto k = std::size_t(pair), other = std::size_t(second_side_[k]);
+    stiffnesses_[k] = stiffnesses_[other] = parts_of_face_[k] = parts_of_face_[other] = 0;
+    was_touching_[k] = 0;
+  }
+  touched_.clear();
 }
 
 template <int Dim>

@@ -4,7 +4,10 @@
 #include <mpm/parallel/session.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -64,6 +67,14 @@ void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
   find_boxes();
   list_pairs(skin);
   keep_needed(std::move(peers));
+  // Nothing is known of these pairs.
+  found_.find({});
+  touches_.clear();
+  touched_.clear();
+  was_touching_.assign(pairs_.size(), 0);
+  boxes_then_.clear();
+  overlaps_.assign(pairs_.size(), 0.0);
+  faces_.assign(pairs_.size(), 0.0);
 }
 
 template <int Dim>
@@ -164,13 +175,14 @@ void OverlapContact<Dim>::add_ghosts(std::vector<Ghosts::Peer>& peers,
   }
 }
 
+/// Cells stand in the bins that their boxes reach into. From the last to the first, each meets
+/// those that came before it in its bins.
 template <int Dim>
 void OverlapContact<Dim>::list_pairs(double skin)
 {
   struct Entry {
     GlobalIndex bin;
-    LocalIndex cell;
-    auto operator<=>(const Entry&) const = default;
+    LocalIndex cell, next;
   };
   constexpr GlobalIndex bins_per_axis = GlobalIndex(1) << (62 / Dim);
   const double width = 1.5 * size_.maxCoeff() + skin;
@@ -180,36 +192,42 @@ void OverlapContact<Dim>::list_pairs(double skin)
     for (int d = Dim - 1; d >= 0; --d) bin = bin * bins_per_axis + at[d];
     return bin;
   };
+  std::vector<LocalIndex> first_entry(std::bit_ceil(4 * stiffness_.size() + 1), -1);
+  const auto slot_of = [&](GlobalIndex bin) -> LocalIndex& {
+    // Fibonacci hashing: its upper bits depend on all of the number's.
+    return first_entry[(std::uint64_t(bin) * 0x9e3779b97f4a7c15u >> 32) & (first_entry.size() - 1)];
+  };
   std::vector<Entry> entries;
-  std::vector<IndexVec<Dim>> first_bins;  // of each cell
-  for (std::size_t c = 0; c < stiffness_.size(); ++c) {
+  std::vector<IndexVec<Dim>> first_bins(stiffness_.size());
+  std::vector<LocalIndex> met;
+  pairs_.clear();
+  for (LocalIndex c = LocalIndex(stiffness_.size()); c-- > 0;) {
+    const Box& box = boxes_[std::size_t(c)];
     IndexBox<Dim> bins;
     for (int d = 0; d < Dim; ++d) {
-      bins.lower[d] = bin_of(boxes_[c][std::size_t(d)] - 0.5 * skin);
-      bins.upper[d] = bin_of(boxes_[c][std::size_t(Dim + d)] + 0.5 * skin) + 1;
+      bins.lower[d] = bin_of(box[std::size_t(d)] - 0.5 * skin);
+      bins.upper[d] = bin_of(box[std::size_t(Dim + d)] + 0.5 * skin) + 1;
     }
-    first_bins.push_back(bins.lower);
+    first_bins[std::size_t(c)] = bins.lower;
+    met.clear();
     for_each_index(bins, [&](const IndexVec<Dim>& at) {
-      entries.push_back({number_of(at), LocalIndex(c)});
+      const GlobalIndex bin = number_of(at);
+      LocalIndex& slot = slot_of(bin);
+      for (LocalIndex e = c < cells() ? slot : -1; e >= 0; e = entries[std::size_t(e)].next) {
+        const Entry& entry = entries[std::size_t(e)];
+        // Of the bins that both are in the first one counts.
+        if (entry.bin == bin && meet<Dim>(box, boxes_[std::size_t(entry.cell)], skin) &&
+            bins.lower.cwiseMax(first_bins[std::size_t(entry.cell)]) == at &&
+            can_meet(c, entry.cell))
+          met.push_back(entry.cell);
+      }
+      entries.push_back({bin, c, slot});
+      slot = LocalIndex(entries.size()) - 1;
     });
+    std::ranges::sort(met, std::greater<>());
+    for (const LocalIndex other : met) pairs_.push_back({c, other});
   }
-  // Of the bins that both are in the first one counts.
-  const auto counts_in = [&](GlobalIndex bin, LocalIndex a, LocalIndex b) {
-    return number_of(first_bins[std::size_t(a)].cwiseMax(first_bins[std::size_t(b)])) == bin;
-  };
-  std::sort(entries.begin(), entries.end());
-  pairs_.clear();
-  for (auto first = entries.begin(); first != entries.end();) {
-    const auto last = std::find_if(first, entries.end(),
-                                   [&](const Entry& entry) { return entry.bin != first->bin; });
-    for (auto a = first; a != last && a->cell < cells(); ++a)
-      for (auto b = a + 1; b != last; ++b)
-        if (meet<Dim>(boxes_[std::size_t(a->cell)], boxes_[std::size_t(b->cell)], skin) &&
-            counts_in(first->bin, a->cell, b->cell) && can_meet(a->cell, b->cell))
-          pairs_.push_back({a->cell, b->cell});
-    first = last;
-  }
-  std::sort(pairs_.begin(), pairs_.end());
+  std::ranges::reverse(pairs_);
   turned_.resize(pairs_.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     const IndexVec<Dim>& a = locations_[std::size_t(pairs_[k].first)];

@@ -1,5 +1,6 @@
 /// Areas on which quadrilaterals lie upon each other, in lanes.
 
+#include <mpm/core/transpose.hpp>
 #include <mpm/lagrangian/cell_overlaps.hpp>
 #include <mpm/lagrangian/overlap.hpp>
 
@@ -8,6 +9,8 @@
 namespace mpm {
 
 namespace {
+
+using overlap_detail::Sides;
 
 /// Which corner is more than straight, or -1.
 int reflex_corner(const double* corners)
@@ -20,6 +23,29 @@ int reflex_corner(const double* corners)
   const double least[4] = {cut_off(3, 0, 1), cut_off(0, 1, 2), cut_off(1, 2, 3), cut_off(2, 3, 0)};
   const auto* narrowest = std::min_element(least, least + 4);
   return *narrowest < 0 ? int(narrowest - least) : -1;
+}
+
+LaneMask has_reflex_corner(const Sides& cell)
+{
+  LaneMask found(false);
+  for (int k = 0; k < 4; ++k) {
+    const int next = (k + 1) % 4;
+    found = found || cell.dx[k] * cell.dy[next] - cell.dy[k] * cell.dx[next] < 0.0;
+  }
+  return found;
+}
+
+/// Whether no corner of `other` lies on the inner side of some side of `one`.
+LaneMask parts_them(const Sides& one, const Sides& other)
+{
+  LaneMask found(false);
+  for (int k = 0; k < 4; ++k) {
+    Lanes farthest = one.distance(k, other.x[0], other.y[0]);
+    for (int c = 1; c < 4; ++c)
+      farthest = stdx::max(farthest, one.distance(k, other.x[c], other.y[c]));
+    found = found || farthest <= 0.0;
+  }
+  return found;
 }
 
 /// Counter-clockwise: a whole cell, then for each corner that may be a reflex one the two triangles
@@ -36,6 +62,7 @@ constexpr std::array<std::array<std::size_t, 4>, 9> pieces{{{0, 1, 2, 3},
 
 }  // namespace
 
+/// Most cells whose boxes meet do not, and are neighbours around a corner.
 void CellOverlaps<2>::list_near(std::span<const MeetingCells> cells)
 {
   near_.clear();
@@ -43,12 +70,38 @@ void CellOverlaps<2>::list_near(std::span<const MeetingCells> cells)
     const int reflex = reflex_corner(corners);
     return reflex < 0 ? std::pair(0, 1) : std::pair(1 + 2 * reflex, 3 + 2 * reflex);
   };
-  for (const MeetingCells& pair : cells) {
-    const auto [first, last] = pieces_of(pair.first);
-    const auto [other_first, other_last] = pieces_of(pair.second);
-    for (int one = first; one < last; ++one)
-      for (int other = other_first; other < other_last; ++other)
-        near_.push_back({pair, {one, other}});
+  for (std::size_t first = 0; first < cells.size(); first += lane_count) {
+    const std::size_t count = std::min<std::size_t>(lane_count, cells.size() - first);
+    const auto cell_of = [&](int lane) -> const MeetingCells& {
+      return cells[first + std::min(std::size_t(lane), count - 1)];
+    };
+    Quads quads_one, quads_other;
+    to_columns([&](int lane) { return cell_of(lane).first; }, quads_one.x);
+    to_columns([&](int lane) { return cell_of(lane).first + 4; }, quads_one.y);
+    to_columns([&](int lane) { return cell_of(lane).second; }, quads_other.x);
+    to_columns([&](int lane) { return cell_of(lane).second + 4; }, quads_other.y);
+    const Lanes x = quads_one.x[0], y = quads_one.y[0];
+    for (int k = 0; k < 4; ++k) {
+      quads_one.x[k] -= x;
+      quads_one.y[k] -= y;
+      quads_other.x[k] -= x;
+      quads_other.y[k] -= y;
+    }
+    const Sides one(quads_one), other(quads_other);
+    const LaneMask reflex = has_reflex_corner(one) || has_reflex_corner(other);
+    const LaneMask apart = !reflex && (parts_them(one, other) || parts_them(other, one));
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      if (apart[lane]) continue;
+      const MeetingCells& pair = cells[first + lane];
+      if (!reflex[lane]) {
+        near_.push_back({pair, {0, 0}});
+        continue;
+      }
+      const auto [one_first, one_last] = pieces_of(pair.first);
+      const auto [other_first, other_last] = pieces_of(pair.second);
+      for (int a = one_first; a < one_last; ++a)
+        for (int b = other_first; b < other_last; ++b) near_.push_back({pair, {a, b}});
+    }
   }
 }
 

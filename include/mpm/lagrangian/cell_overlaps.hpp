@@ -23,9 +23,10 @@ using CellBox = std::array<double, 2 * std::size_t(Dim)>;
 template <int Dim>
 bool meet(const CellBox<Dim>& a, const CellBox<Dim>& b, double distance)
 {
-  for (std::size_t d = 0; d < Dim; ++d)
-    if (!(a[d] < b[Dim + d] + distance && b[d] < a[Dim + d] + distance)) return false;
-  return true;
+  bool found = true;
+  for (std::size_t d = 0; d < Dim; ++d)  // all of them: a branch that nobody foresees costs more
+    found &= bool(a[d] < b[Dim + d] + distance) & bool(b[d] < a[Dim + d] + distance);
+  return found;
 }
 
 template <int Dim>
@@ -78,13 +79,17 @@ class CellOverlaps<2> {
   }
   static CellBox<2> box_of(const double* at)
   {
-    const auto [left, right] = std::minmax({at[0], at[1], at[2], at[3]});
-    const auto [lower, upper] = std::minmax({at[4], at[5], at[6], at[7]});
-    return {left, lower, right, upper};
+    const auto least = [](const double* of) {
+      return std::min(std::min(of[0], of[1]), std::min(of[2], of[3]));
+    };
+    const auto most = [](const double* of) {
+      return std::max(std::max(of[0], of[1]), std::max(of[2], of[3]));
+    };
+    return {least(at), least(at + 4), most(at), most(at + 4)};
   }
 
-  /// Cells with a reflex corner come as two triangles, so that a pair may have several entries,
-  /// which stand side by side in the order of `cells`.
+  /// Those that are not apart, in the order of `cells`. One with a reflex corner comes as two
+  /// triangles, so that a pair may have several entries, which stand side by side.
   void find(std::span<const MeetingCells> cells);
   std::size_t size() const { return near_.size(); }
   std::size_t pair(std::size_t entry) const { return near_[entry].cells.pair; }

@@ -88,6 +88,7 @@ class OverlapContact final : public SelfContact<Dim> {
   void keep_needed(std::vector<Ghosts::Peer> peers);
   void answer(std::vector<Ghosts::Peer>& peers, const std::vector<std::vector<double>>& asked,
               std::vector<Ghosts::Peer>& sides) const;
+  void list_close();
   void find_overlaps();
   void list_touches();
   bool is_last_of_pair(std::size_t entry) const
@@ -143,6 +144,8 @@ class OverlapContact final : public SelfContact<Dim> {
   /// Whether the overlap is found as that of the second with the first: in the order of their
   /// locations, so that both ranks of a pair find the same bits.
   std::vector<char> turned_;
+  std::vector<LocalIndex> close_;   ///< pairs whose boxes may meet before one has gone far
+  std::vector<Box> boxes_then_;     ///< when those were listed
   std::vector<MeetingCells> near_;  ///< those whose boxes meet
   Overlaps found_;                  ///< theirs
   std::vector<double> overlaps_;    ///< of all pairs, m^3, in the plane m^2
@@ -160,6 +163,8 @@ class OverlapContact final : public SelfContact<Dim> {
   GlobalIndex touching_ = 0;
   double energy_ = 0;  ///< J, of this rank's cells
   double kappa_;
+  std::vector<LocalIndex> touched_;  ///< pairs that have touched since the last check
+  std::vector<char> was_touching_;   ///< whether a pair is among them
   /// As sides_, the largest since the last check: G'' times the face on which it presses over that
   /// of a cell; and the share that the other cell has in what lies on this one's face.
   std::vector<double> stiffnesses_, parts_of_face_;
