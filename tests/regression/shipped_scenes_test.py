@@ -9,7 +9,7 @@ INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
 
 class ShippedScenes(ProgramTest):
     def run_scene(self, name, *options):
-        run = mpm_par(INPUTS / name, *options, ranks=2, timeout=300)
+        run = mpm_par(INPUTS / name, *options, ranks=2, timeout=900)
         self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
         return run.stdout
 

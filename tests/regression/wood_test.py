@@ -22,6 +22,9 @@ OTHERS = {"loblolly_tangential": (0.6160, 3573e6, 218.5e6),
           "poplar_radial": (0.5703, 4382e6, 186.1e6),
           "poplar_tangential": (0.5703, 2275e6, 114.7e6),
           "ponderosa_tangential": (0.3802, 1250e6, 62.6e6)}
+# Of loblolly_radial as shipped, to 5 % strain: mean stress from, to.
+CELLS = {(0.005, 0.015): 35.48e6, (0.03, 0.05): 68.03e6}
+CLOSED_OF_CELLS = 0.001
 
 
 class Wood(ProgramTest):
@@ -72,13 +75,12 @@ class Wood(ProgramTest):
 
     def test_loblolly_radial_buckles_as_shipped_with_cells_that_hardly_overlap(self):
         history, found = self.crush("loblolly_radial", 0.05, settings=[])
-        self.assertEqual(found["plan"]["passes"], ["cells"])
+        self.assertEqual(found["plan"]["passes"], ["cells"])  # the total Lagrangian step
         self.assertLess(abs(found["largest_energy_error"]), CLOSED_OF_CELLS)
         self.assertAlmostEqual(found["relative_density"], RADIAL["relative_density"], delta=1e-4)
-        self.assertAlmostEqual(found["modulus"], CELLS["modulus"], delta=DRIFT * CELLS["modulus"])
-        plateau = [s for e, s in zip(history["strain"], history["stress"]) if e > 0.03]
-        self.assertAlmostEqual(sum(plateau) / len(plateau), CELLS["plateau"],
-                               delta=DRIFT * CELLS["plateau"])
+        for (start, end), own in CELLS.items():
+            stress = [s for e, s in zip(history["strain"], history["stress"]) if start < e < end]
+            self.assertAlmostEqual(sum(stress) / len(stress), own, delta=DRIFT * own)
         self.assertGreater(max(history["contact_pairs"]), 0)
         wall = found["relative_density"] * 0.832e-3 * 0.541e-3  # m2
         self.assertLess(max(history["overlapped_area"]), 1e-3 * wall)
