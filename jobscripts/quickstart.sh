@@ -1,6 +1,7 @@
 #!/bin/sh
 # From a fresh clone to a crushed piece of pine: installs what is missing, builds, runs the radial
-# compression of a loblolly pine micrograph on 2 ranks, draws the stress-strain curve and pictures.
+# compression of a loblolly pine micrograph on 2 ranks with the total Lagrangian step, which the scene
+# names (some minutes), draws the stress-strain curve and pictures.
 #
 #   sh jobscripts/quickstart.sh
 #
@@ -9,7 +10,7 @@
 set -eu
 case ${1-} in
   '') ;;
-  -h | --help) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  -h | --help) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
   *) echo "quickstart.sh: takes no argument, got '$1'. See --help." >&2; exit 2 ;;
 esac
 cd "$(dirname "$0")/.."

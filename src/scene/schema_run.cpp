@@ -40,9 +40,11 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       [](const N& n) { return n.formulation == FormulationKind::total_lagrangian; },
       "formulation: total_lagrangian"};
   static const std::vector<Parameter<N>> rows{
-      member<N>("formulation", &N::formulation, {},
-                "weights in the present configuration, on a grid that forgets; or in the reference "
-                "one, on cells that are locations, with contact of the body with itself"),
+      member<N>(
+          "formulation", &N::formulation, {},
+          "weights in the present configuration, on a grid that forgets: for what tears, "
+          "mixes or flows; or in the reference one, on cells that are locations, with contact "
+          "of the body with itself: for crushing"),
       member<N>("surface", &N::surface, {},
                 "stairs of locations; or corners of cells at the surface stand where the wall ends "
                 "in the picture or in the shapes")

@@ -91,7 +91,9 @@ void look_at_contact(const scene::Scene& scene, const micrograph::Specimen<Dim>&
   warnings.push_back(fmt::format(
       "contact closes gaps about a cell too early: {:.1f} of them on the piston's way are "
       "{:.1f} % of strain once all are closed. Half the cell, half of that: refine grid.cells, or "
-      "let mpm_study --error-bar estimate the error.",
+      "let mpm_study --error-bar estimate the error. With numerics.formulation: total_lagrangian "
+      "cells meet where they are, and wood comes to the same error in a fraction of the run time "
+      "(docs/formulations.md).",
       early * specimen.size()[axis] / layout.geometry.spacing[axis], 100 * early));
 }
 

@@ -65,7 +65,8 @@ def locations(folder, size, cells):
 
 def base_picture(mpm_par, picture, scene, size, cells, settings=()):
     """The geometry of a scene at these cells, as a picture with one pixel a location."""
-    folder, _ = runs.run(mpm_par, scene, [*settings, f"grid.cells={cells}", "loading.strain=0.1 %",
+    folder, _ = runs.run(mpm_par, scene, [*settings, runs.UPDATED, f"grid.cells={cells}",
+                                          "loading.strain=0.1 %",
                                           "output.snapshots={strains: [0 %]}"], picture.parent)
     picture.write_bytes(bitmap(locations(folder, size, cells)))
     return picture

@@ -212,12 +212,12 @@ def three_users():
     coarse_time, coarse = carried(150, 300)
     fine_time, sharp = carried(300, 600)
     return "\n".join([
-        f"- **A quick look**: the defaults (gimp, flip) with `cells: [150, 97]`, "
+        f"- **A quick look**: its defaults (gimp, flip) with `cells: [150, 97]`, "
         f"{seconds(held[150]['seconds'])}: where walls fold, and in which order; the figures are too "
         f"stiff and too early, off by {errors_at(method, 150)}. 75 cells take "
         f"{seconds(held[75]['seconds'])} and leave {errors_at(method, 75)}.",
         f"- **5 % on a real micrograph**: no single run that was made has it. Run 150 and 300 cells "
-        f"across with the defaults, {coarse_time} together, and carry "
+        f"across with them, {coarse_time} together, and carry "
         f"modulus, plateau and closing strain to h = 0 as 2 f300 - f150: what comes out is away from "
         f"the line through all levels from 150 cells on by {coarse}. One run alone, along that line: modulus "
         f"{need('modulus', 0.05)}; closing strain {need('closing_strain', 0.05)}; plateau "

@@ -34,7 +34,10 @@ def page(table, release):
         about_text(table) + "\n",
         "A figure is the median of its samples, `+-` half their range. Runs are pinned to cores of "
         "their own.\n",
-        section("The program, and what is not a pass", markdown(whole)),
+        section("The program, and what is not a pass", markdown(whole),
+                "Woods run with `numerics.formulation: updated_lagrangian` and `specimen.sampling: "
+                "threshold`; what the other formulation costs at the same error: "
+                "[formulations](formulations.md)."),
         section("Passes by themselves", catalogue(rows, "kernel"),
                 "Nanoseconds per particle: 160,000 particles in the plane (Hencky), 512,000 in space "
                 "(rate form), sorted, one core. `plastic`: every particle flows."),

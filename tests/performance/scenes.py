@@ -9,6 +9,7 @@ from measuring import PROJECT, avx2_build, figure, instructions, run
 
 BENCHMARKS = PROJECT / "inputs" / "benchmarks"
 WOOD = PROJECT / "inputs" / "wood"
+UPDATED = "numerics.formulation=updated_lagrangian"  # wood is shipped with the other one
 SHAPES = ("linear", "gimp", "quadratic")
 
 
@@ -77,14 +78,15 @@ def measure_blocks(build, repeat, quick):
 
 
 def measure_wood(build, repeat, quick):
-    """Full runs, from first to last step, on two ranks: as shipped, and with the functions that bear
-    the longest step, these on one rank in turn, so that what else the machine does meets both."""
+    """Full runs of the updated Lagrangian step, from first to last, on two ranks: with its default,
+    and with the functions that bear the longest step, these on one rank in turn, so that what else
+    the machine does meets both."""
     rows = []
     steps = ["steps=500"] if quick else []
     stored = "specimen.sampling=threshold"  # the particles of the stored figures
     for scene in ("loblolly_radial",) if quick else ("loblolly_radial", "ponderosa_tangential"):
         for shape, numbers in (("gimp", (2,)), ("quadratic", (1, 2))):
-            settings = [f"numerics.shape_function={shape}", stored, *steps]
+            settings = [UPDATED, f"numerics.shape_function={shape}", stored, *steps]
             results = in_turn(build, repeat, WOOD / f"{scene}.yaml", settings, numbers)
             name = f"{scene}, {shape}{', first 500 steps' * quick}"
             for ranks, summaries in results.items():

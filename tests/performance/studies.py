@@ -3,7 +3,7 @@ import re
 import subprocess
 
 from measuring import environment, figure
-from scenes import WOOD
+from scenes import UPDATED, WOOD
 
 RANKS = (8, 64, 512)
 COLUMNS = {"imbalance": "1", "shared nodes": "1", "messages": "1", "bytes": "B"}
@@ -22,7 +22,7 @@ def measure_studies(build, _repeat, quick):
     ranks = RANKS[:1] if quick else RANKS
     commands = {"ponderosa tangential": [build.mpm_par, "--check", "--ranks",
                                          ",".join(map(str, ranks)),
-                                         WOOD / "ponderosa_tangential.yaml"],
+                                         WOOD / "ponderosa_tangential.yaml", "--set", UPDATED],
                 "tubes in space": [build.program("partition_study"), *(["32"] * quick)]}
     rows = []
     for specimen, command in commands.items():

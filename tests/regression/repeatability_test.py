@@ -31,6 +31,7 @@ class Repeatability(ProgramTest):
     def test_ponderosa_repeats_itself_while_borders_move_often(self):
         for ranks in 2, 3:
             self.check_repeats("wood/ponderosa_tangential.yaml", ranks, "steps=3000",
+                               "numerics.formulation=updated_lagrangian",
                                "loading.speed=60 m/s", "loading.ramp_time=0 s", FIELDS,
                                "output.snapshots.strains=[0 %, 1 %]",
                                "numerics.repartition_interval=100")

@@ -9,7 +9,7 @@ INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
 
 class ShippedScenes(ProgramTest):
     def run_scene(self, name, *options):
-        run = mpm_par(INPUTS / name, *options, ranks=2, timeout=300)
+        run = mpm_par(INPUTS / name, *options, ranks=2, timeout=900)
         self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
         return run.stdout
 
@@ -38,7 +38,7 @@ class ShippedScenes(ProgramTest):
         self.assertAlmostEqual(found["strain"], 0.2, places=9)
         self.assertLess(abs(found["largest_energy_error"]), 0.005)
 
-    def test_an_own_micrograph_needs_seven_lines(self):
+    def test_an_own_micrograph_needs_eight_lines(self):
         folder = self.folder / "own"
         self.run_scene("tutorial/own_micrograph.yaml", "--output", folder)
         found = summary(folder)

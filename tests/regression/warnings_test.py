@@ -146,7 +146,10 @@ class Warnings(ProgramTest):
     def test_gaps_that_close_early(self):
         # One gap, and a cell of 20.
         self.assert_only(self.warnings(APART, "loading.strain=45 %"), "1.0 of them",
-                         "5.0 % of strain", "mpm_study --error-bar", "grid.cells")
+                         "5.0 % of strain", "mpm_study --error-bar", "grid.cells",
+                         "numerics.formulation: total_lagrangian", "docs/formulations.md")
+        self.assertEqual(self.warnings(APART, "loading.strain=45 %",
+                                       "numerics.formulation=total_lagrangian"), [])
         finer = ["loading.strain=45 %", "grid.cells=[100, 20]"]
         self.assertEqual(self.warnings(APART, *finer), [])
         self.assert_only(self.warnings(APART, "loading.strain=45 %", "grid.cells=[99, 20]"),

@@ -52,9 +52,9 @@ def keys_of(method):
 
 def settings_of(table, case, method):
     shape, scheme, order = keys_of(method)
-    settings = [f"numerics.shape_function={shape}", f"numerics.scheme={scheme}",
-                f"numerics.update_order={order}", "output.fields=[volume_ratio, velocity]",
-                *case.get("settings", [])]
+    settings = ["numerics.formulation=updated_lagrangian", f"numerics.shape_function={shape}",
+                f"numerics.scheme={scheme}", f"numerics.update_order={order}",
+                "output.fields=[volume_ratio, velocity]", *case.get("settings", [])]
     if "share_of_limit" in case:
         cfl = min(3, case["share_of_limit"] * table["limits"][method])  # a scene takes none above 3
         settings.append(f"numerics.cfl={cfl:.6g}")
