@@ -133,11 +133,12 @@ void OverlapContact<Dim>::list_touches()
   touches_.resize(std::size_t(first.back()));
   std::vector<LocalIndex> next(first.begin(), first.end() - 1);
   for_each_touching([&](std::size_t k, const Pair& pair) {
-    touches_[std::size_t(next[std::size_t(pair.first)]++)] = {pair.second, LocalIndex(k),
-                                                              LocalIndex(k)};
+    const double overlap = overlaps_[k], face = faces_[k];
+    touches_[std::size_t(next[std::size_t(pair.first)]++)] = {pair.second, LocalIndex(k), overlap,
+                                                              face};
     if (pair.second < cells())
-      touches_[std::size_t(next[std::size_t(pair.second)]++)] = {pair.first, LocalIndex(k),
-                                                                 second_side_[k]};
+      touches_[std::size_t(next[std::size_t(pair.second)]++)] = {pair.first, second_side_[k],
+                                                                 overlap, face};
   });
 }
 
@@ -152,9 +153,8 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
   parts_.resize(count);
   beside_.resize(count * count);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto pair = std::size_t(touches[k].pair);
-    parts_[k].share = OverlapShare(overlaps_[pair] / cell_volume_).value;
-    parts_[k].face = faces_[pair];
+    parts_[k].share = OverlapShare(touches[k].overlap / cell_volume_).value;
+    parts_[k].face = touches[k].face;
     for (std::size_t j = 0; j < k; ++j)
       beside_[k * count + j] = beside_[j * count + k] =
           are_of_one_wall(touches[j].other, touches[k].other);
@@ -174,13 +174,10 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
     part.change = of_other * part.share * potential.slope;
     energy_ += stiffness * cell_volume_ * part.share * part.own;
     if (!(together > 0)) continue;
-    const auto grow = [&](std::vector<double>& largest, double now) {
-      double& of_side = largest[std::size_t(touches[k].side)];
-      of_side = std::max(of_side, now);
-    };
-    grow(stiffnesses_,
-         OverlapPotential::stiffness(together) * add_beside(k, &Part::face) / cell_face_);
-    grow(parts_of_face_, part.share / together);
+    double* largest = &presses_[2 * std::size_t(touches[k].side)];
+    largest[0] = std::max(largest[0], OverlapPotential::stiffness(together) *
+                                          add_beside(k, &Part::face) / cell_face_);
+    largest[1] = std::max(largest[1], part.share / together);
   }
   for (std::size_t k = 0; k < count; ++k)
     sides_[std::size_t(touches[k].side)] =
@@ -226,14 +223,14 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
   // Faces that meet between two checks would press long before their cells are heavier: those that
   // may are taken to press twice as hard as flush ones do at first.
   constexpr double expected = 2;
-  side_ghosts_.update(stiffnesses_, 1);
+  side_ghosts_.update(presses_, 2);
   std::vector<double> pressed(cells_.size(), 0.0);
   for (const LocalIndex pair : touched_) {
     const auto k = std::size_t(pair), other = std::size_t(second_side_[k]);
-    const double both = 0.5 * (stiffnesses_[k] + stiffnesses_[other]);
-    pressed[std::size_t(pairs_[k].first)] += parts_of_face_[k] * both;
+    const double both = 0.5 * (presses_[2 * k] + presses_[2 * other]);
+    pressed[std::size_t(pairs_[k].first)] += presses_[2 * k + 1] * both;
     if (pairs_[k].second < cells())
-      pressed[std::size_t(pairs_[k].second)] += parts_of_face_[other] * both;
+      pressed[std::size_t(pairs_[k].second)] += presses_[2 * other + 1] * both;
   }
   for (const Pair& pair : pairs_) {
     if (!meet<Dim>(boxes_[std::size_t(pair.first)], boxes_[std::size_t(pair.second)], way) ||
@@ -251,7 +248,8 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
   }
   for (const LocalIndex pair : touched_) {
     const auto k = std::size_t(pair), other = std::size_t(second_side_[k]);
-    stiffnesses_[k] = stiffnesses_[other] = parts_of_face_[k] = parts_of_face_[other] = 0;
+    std::fill_n(&presses_[2 * k], 2, 0.0);
+    std::fill_n(&presses_[2 * other], 2, 0.0);
     was_touching_[k] = 0;
   }
   touched_.clear();
@@ -261,7 +259,7 @@ template <int Dim>
 double OverlapContact<Dim>::overlapped_area() const
 {
   double area = 0;
-  for (const Touch& touch : touches_) area += 0.5 * overlaps_[std::size_t(touch.pair)];
+  for (const Touch& touch : touches_) area += 0.5 * touch.overlap;
   return area;
 }
 

@@ -285,8 +285,8 @@ void OverlapContact<Dim>::keep_needed(std::vector<Ghosts::Peer> peers)
   of_body_.resize(std::size_t(next));
   images_.resize(std::size_t(next));
   values_.resize(std::size_t(next) * Overlaps::values);
-  for (auto* values : {&sides_, &stiffnesses_, &parts_of_face_})
-    values->assign(std::size_t(next_side), 0.0);
+  sides_.assign(std::size_t(next_side), 0.0);
+  presses_.assign(2 * std::size_t(next_side), 0.0);
   answer(peers, traded_over_ranks(comm_, out), sides);
   ghosts_.set(std::move(peers));
   side_ghosts_.set(std::move(sides));

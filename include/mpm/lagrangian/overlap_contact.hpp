@@ -105,7 +105,8 @@ class OverlapContact final : public SelfContact<Dim> {
 
   /// One cell of this rank in a pair that touches.
   struct Touch {
-    LocalIndex other, pair, side;  ///< side: where in sides_
+    LocalIndex other, side;  ///< side: where in sides_
+    double overlap, face;    ///< as in overlaps_ and faces_
   };
   /// Of a touch: what its overlap counts as, its face, m^2 or m, what it stores, and by how much
   /// its neighbours' answers grow with it.
@@ -165,9 +166,10 @@ class OverlapContact final : public SelfContact<Dim> {
   double kappa_;
   std::vector<LocalIndex> touched_;  ///< pairs that have touched since the last check
   std::vector<char> was_touching_;   ///< whether a pair is among them
-  /// As sides_, the largest since the last check: G'' times the face on which it presses over that
-  /// of a cell; and the share that the other cell has in what lies on this one's face.
-  std::vector<double> stiffnesses_, parts_of_face_;
+  /// [2 * side], sides as in sides_, the largest since the last check: G'' times the face on which
+  /// it presses over that of a cell; and the share that the other cell has in what lies on this
+  /// one's face.
+  std::vector<double> presses_;
 };
 
 }  // namespace mpm
