@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace mpm {
 
@@ -41,6 +42,15 @@ struct Shares {
       of[c] = slopes.by[c][0] * direction[0];
       for (int d = 1; d < Dim; ++d) of[c] += slopes.by[c][d] * direction[d];
     }
+  }
+  /// At the nodes of a cell that has an outline.
+  void take_nodes(const CellOutline& outline)
+  {
+    std::array<double, corners> of_corners{};
+    for (std::size_t c = 0; c < corners; ++c) of_corners[corner[c]] += of[c];
+    outline.give_nodes(of_corners);
+    std::copy_n(of_corners.begin(), corners, of);
+    std::iota(corner.begin(), corner.end(), std::size_t(0));
   }
   double velocity(const double* motion, int axis) const
   {
@@ -79,6 +89,28 @@ std::array<Vec<3>, 2> tangents_of(const Vec<3>& normal)
   return {one, normal.cross(one)};
 }
 
+/// From nodes to corners. Of 1 / mass what a push at the corner alone meets.
+void take_corners(const CellOutline& outline, double* motion)
+{
+  constexpr int width = values_per_corner<2>;
+  std::array<double, CellOutline::corners> of_corners, of_nodes;
+  for (int v = 0; v < width; ++v) {
+    for (std::size_t k = 0; k < of_nodes.size(); ++k) of_nodes[k] = motion[int(k) * width + v];
+    of_corners = of_nodes;
+    if (v < 2) {
+      outline.take_corners(of_corners);
+    } else {
+      for (std::size_t k = 0; k < of_corners.size(); ++k) {
+        const auto weights = outline.weights(k);
+        of_corners[k] = 0;
+        for (std::size_t i = 0; i < weights.size(); ++i)
+          of_corners[k] += weights[i] * weights[i] * of_nodes[i];
+      }
+    }
+    for (std::size_t k = 0; k < of_corners.size(); ++k) motion[int(k) * width + v] = of_corners[k];
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -87,12 +119,15 @@ void OverlapContact<Dim>::take_motion(const NodeFields<Dim>& fields)
   constexpr int width = int(corners_of_cell) * values_per_corner<Dim>;
   motion_.resize(stiffness_.size() * width);
   double* out = motion_.data();
-  for (const Cell& cell : cells_)
-    for (const LocalIndex node : cell.nodes) {
+  for (LocalIndex c = 0; c < cells(); ++c) {
+    for (const LocalIndex node : cells_[std::size_t(c)].nodes) {
       const double* u = &fields.updated[std::size_t(node) * NodeFields<Dim>::record_width];
       for (int d = 0; d < Dim; ++d) *out++ = u[d];
       *out++ = 1 / fields.mass_of(node);
     }
+    if constexpr (Dim == 2)
+      if (const CellOutline* outline = outline_of(c)) take_corners(*outline, out - width);
+  }
   ghosts_.update(motion_, width);
 }
 
@@ -126,8 +161,10 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double dt,
     const double most = coefficient * pressure(found_.pair(entry)) * face;
     const Vec<Dim - 1> push =
         -std::min(most, stopped_at_once<Dim> * speed / (mobility * dt)) * (slip / speed);
-    const auto add = [&](LocalIndex cell, const Shares<Dim>& shares, double sign) {
+    const auto add = [&](LocalIndex cell, Shares<Dim> shares, double sign) {
       if (cell >= cells()) return;
+      if constexpr (Dim == 2)
+        if (const CellOutline* outline = outline_of(cell)) shares.take_nodes(*outline);
       for (std::size_t c = 0; c < corners_of_cell; ++c) {
         const auto node = std::size_t(cells_[std::size_t(cell)].nodes[shares.corner[c]]);
         for (int t = 0; t < Dim - 1; ++t) {

@@ -7,13 +7,11 @@
 namespace mpm {
 
 template <int Dim>
-OverlapContact<Dim>::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, double kappa,
-                                    BodyPairs bodies, const Vec<Dim>& size,
-                                    const IndexVec<Dim>& period)
+OverlapContact<Dim>::OverlapContact(MPI_Comm comm, Cells cells, double kappa, BodyPairs bodies,
+                                    const Vec<Dim>& size, const IndexVec<Dim>& period)
     : comm_(comm),
       ghosts_(comm),
       side_ghosts_(comm),
-      cells_(std::move(cells)),
       bodies_(std::move(bodies)),
       size_(size),
       period_(period),
@@ -21,6 +19,16 @@ OverlapContact<Dim>::OverlapContact(MPI_Comm comm, std::vector<Cell> cells, doub
       cell_face_(Dim == 2 ? std::sqrt(cell_volume_) : std::pow(cell_volume_, 2.0 / 3.0)),
       kappa_(kappa)
 {
+  set_cells(std::move(cells));
+}
+
+template <int Dim>
+void OverlapContact<Dim>::set_cells(Cells cells)
+{
+  cells_ = std::move(cells.cells);
+  outlines_ = std::move(cells.outlines);
+  reach_ = Overlaps::reach;
+  for (const CellOutline& outline : outlines_) reach_ = std::max(reach_, outline.reach());
 }
 
 template <int Dim>
@@ -34,6 +42,8 @@ void OverlapContact<Dim>::take_places(const MeshNodes<Dim>& nodes)
       const auto node = std::size_t(cells_[std::size_t(c)].nodes[k]);
       for (int d = 0; d < Dim; ++d) places[k][d] = along[d][node * MeshNodes<Dim>::stride];
     }
+    if constexpr (Dim == 2)
+      if (const CellOutline* outline = outline_of(c)) outline->take_corners(places);
     Overlaps::describe(places, values_of(c));
   }
 }
@@ -200,7 +210,9 @@ void OverlapContact<Dim>::add_forces(NodeFields<Dim>& fields) const
     for (const int side : {0, 1}) {
       const LocalIndex cell = cell_of(entry, side);
       if (cell >= cells()) continue;
-      const OverlapSlopes<Dim> slopes = found_.slopes(entry, side);
+      OverlapSlopes<Dim> slopes = found_.slopes(entry, side);
+      if constexpr (Dim == 2)
+        if (const CellOutline* outline = outline_of(cell)) slopes.take_nodes(*outline);
       for (std::size_t c = 0; c < corners_of_cell; ++c) {
         double* force = fields.force_of(cells_[std::size_t(cell)].nodes[slopes.corner[c]]);
         for (int d = 0; d < Dim; ++d) force[d] -= push * slopes.by[c][d];
@@ -266,9 +278,9 @@ double OverlapContact<Dim>::overlapped_area() const
 template <int Dim>
 std::size_t OverlapContact<Dim>::bytes() const
 {
-  return cells_.size() * sizeof(Cell) + pairs_.capacity() * sizeof(Pair) +
-         near_.capacity() * sizeof(MeetingCells) + found_.bytes() +
-         values_.capacity() * sizeof(double) + boxes_.capacity() * sizeof(Box);
+  return cells_.size() * sizeof(Cell) + outlines_.size() * sizeof(CellOutline) +
+         pairs_.capacity() * sizeof(Pair) + near_.capacity() * sizeof(MeetingCells) +
+         found_.bytes() + values_.capacity() * sizeof(double) + boxes_.capacity() * sizeof(Box);
 }
 
 template class OverlapContact<2>;

@@ -85,7 +85,7 @@ double OverlapContact<Dim>::largest_way(const MeshNodes<Dim>& nodes) const
     if (nodes.is_free(LocalIndex(n))) continue;
     squared = std::max(squared, (nodes.position(LocalIndex(n)) - places_then_[n]).squaredNorm());
   }
-  return Overlaps::reach * std::sqrt(squared);
+  return reach_ * std::sqrt(squared);
 }
 
 /// Whether all axes along which an image lies elsewhere are periodic.

@@ -5,12 +5,29 @@
 
 namespace mpm {
 
+/// `nodes`: in the order of CellOverlaps.
 template <int Dim>
-auto TotalLagrangian<Dim>::contact_cells(const Occupants<Dim>& occupants) const
-    -> std::vector<ContactCell>
+std::optional<CellOutline> TotalLagrangian<Dim>::outline_of(const CellNodes& nodes) const
+{
+  if constexpr (Dim == 2) {
+    if (setup_.offsets.empty()) return std::nullopt;
+    std::array<Vec<2>, CellOutline::corners> rest, ways;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const IndexVec<2>& corner = nodes_->corner(nodes[k]);
+      for (int d = 0; d < 2; ++d) rest[k][d] = nodes_->rest(nodes[k], d);
+      rest[k] += setup_.offsets(corner);
+      ways[k] = setup_.offsets.way(corner);
+    }
+    return CellOutline::at(rest, ways);
+  }
+  return std::nullopt;
+}
+
+template <int Dim>
+auto TotalLagrangian<Dim>::contact_cells(const Occupants<Dim>& occupants) const -> ContactCells
 {
   const IndexVec<Dim> period = this->period();
-  std::vector<ContactCell> near;
+  ContactCells near;
   const auto add = [&](const CellNodes& corners, int body, double stiffness, LocalIndex particle) {
     const IndexVec<Dim> location = nodes_->corner(corners[0]);
     // What is apart is not behind a face.
@@ -23,7 +40,11 @@ auto TotalLagrangian<Dim>::contact_cells(const Occupants<Dim>& occupants) const
     if (!near_surface<Dim>(location, is_taken)) return;
     CellNodes nodes;
     for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] = corners[CellOverlaps<Dim>::order[k]];
-    near.push_back({nodes, location, stiffness, {location, is_taken}, body, particle});
+    near.cells.push_back({nodes, location, stiffness, {location, is_taken}, body, particle});
+    if (const auto outline = outline_of(nodes)) {
+      near.cells.back().outline = LocalIndex(near.outlines.size());
+      near.outlines.push_back(*outline);
+    }
   };
   int b = 0;
   for (const Body<Dim>& body : setup_.bodies) {
@@ -42,9 +63,7 @@ auto TotalLagrangian<Dim>::contact_cells(const Occupants<Dim>& occupants) const
   return near;
 }
 
-template auto TotalLagrangian<2>::contact_cells(const Occupants<2>&) const
-    -> std::vector<ContactCell>;
-template auto TotalLagrangian<3>::contact_cells(const Occupants<3>&) const
-    -> std::vector<ContactCell>;
+template auto TotalLagrangian<2>::contact_cells(const Occupants<2>&) const -> ContactCells;
+template auto TotalLagrangian<3>::contact_cells(const Occupants<3>&) const -> ContactCells;
 
 }  // namespace mpm

@@ -112,7 +112,10 @@ void TotalLagrangian<Dim>::make_mesh()
     contact_ =
         std::make_unique<OverlapContact<Dim>>(comm, contact_cells(taken), setup_.contact_stiffness,
                                               setup_.pairs, setup_.location_size, period);
-  if (contact_ && cells_may_fail()) occupants_ = std::move(taken);
+  if (contact_ && cells_may_fail())
+    occupants_ = std::move(taken);
+  else
+    setup_.offsets = {};
   if (contact_ && setup_.pairs.any_friction())
     friction_.assign(Dim * std::size_t(nodes_->size()), 0.0);
 }
@@ -153,7 +156,6 @@ void TotalLagrangian<Dim>::take_rest()
     if (cells_may_fail() && setup_.failure[b].limit_stretch())
       cells_[b].keep_rest(setup_.bodies[b]);
   }
-  setup_.offsets = {};
   checked_ = -1;  // the first step has to know them
 }
 

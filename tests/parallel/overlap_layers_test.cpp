@@ -18,13 +18,13 @@ struct Layers {
   Layers(double depth, const Vec<Dim>& shift, double turn = 0,
          const Vec<Dim>& slide = Vec<Dim>::Zero())
   {
-    std::vector<typename OverlapContact<Dim>::Cell> surface;
+    typename OverlapContact<Dim>::Cells surface;
     std::vector<Vec<Dim>> places;
     for (int c = 0; c < 2 * of_layer; ++c) {
       // Cells of a layer are neighbours; the layers are not.
       const int layer = c / of_layer;
       const IndexVec<3> location(c % across, 5 * layer, c % of_layer / across);
-      surface.push_back(cell_at<Dim>(c, location.head<Dim>()));
+      surface.cells.push_back(cell_at<Dim>(c, location.head<Dim>()));
       IndexVec<Dim> lattice = location.head<Dim>();
       lattice[1] = 0;
       Vec<Dim> middle = lattice.template cast<double>() + layer * shift;

@@ -12,12 +12,18 @@ template <int Dim>
 struct CornerOffsets {
   IndexBox<Dim> corners{};
   std::vector<Vec<Dim>> offsets;  ///< x fastest; empty: all stand on the lattice
+  std::vector<Vec<Dim>> ways;     ///< on from there to the wall's surface, of those near it
 
   bool empty() const { return offsets.empty(); }
   Vec<Dim> operator()(const IndexVec<Dim>& corner) const
   {
     if (empty() || !corners.contains(corner)) return Vec<Dim>::Zero();
     return offsets[std::size_t(number_in(corners, corner))];
+  }
+  Vec<Dim> way(const IndexVec<Dim>& corner) const
+  {
+    if (ways.empty() || !corners.contains(corner)) return Vec<Dim>::Zero();
+    return ways[std::size_t(number_in(corners, corner))];
   }
 };
 

@@ -6,10 +6,12 @@
 #include <mpm/core/lanes.hpp>
 #include <mpm/core/types.hpp>
 #include <mpm/lagrangian/brick_overlap.hpp>
+#include <mpm/lagrangian/cell_outline.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -44,6 +46,16 @@ struct OverlapSlopes {
     Vec<Dim> sum = Vec<Dim>::Zero();
     for (const Vec<Dim>& slope : by) sum += slope;
     return sum;
+  }
+  /// By the nodes of a cell that has an outline, in the plane.
+  void take_nodes(const CellOutline& outline)
+  {
+    CornerPlaces<Dim> of_corners;
+    of_corners.fill(Vec<Dim>::Zero());
+    for (std::size_t c = 0; c < corner.size(); ++c) of_corners[corner[c]] += by[c];
+    outline.give_nodes(of_corners);
+    by = of_corners;
+    std::iota(corner.begin(), corner.end(), std::size_t(0));
   }
 };
 

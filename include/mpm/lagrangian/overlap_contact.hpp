@@ -33,12 +33,13 @@ class OverlapContact final : public SelfContact<Dim> {
 
  public:
   using typename SelfContact<Dim>::Cell;
+  using typename SelfContact<Dim>::Cells;
 
   /// This rank's cells near surfaces; `size` of a location, m, and `period` in locations.
-  OverlapContact(MPI_Comm comm, std::vector<Cell> cells, double kappa, BodyPairs bodies,
-                 const Vec<Dim>& size, const IndexVec<Dim>& period);
+  OverlapContact(MPI_Comm comm, Cells cells, double kappa, BodyPairs bodies, const Vec<Dim>& size,
+                 const IndexVec<Dim>& period);
 
-  void set_cells(std::vector<Cell> cells) override { cells_ = std::move(cells); }
+  void set_cells(Cells cells) override;
   void find_pairs(const MeshNodes<Dim>& nodes, double skin) override;
   double skin() const override { return skin_; }
   double largest_way(const MeshNodes<Dim>& nodes) const override;
@@ -75,6 +76,12 @@ class OverlapContact final : public SelfContact<Dim> {
   LocalIndex cells() const { return LocalIndex(cells_.size()); }
   double* values_of(LocalIndex cell) { return &values_[std::size_t(cell) * Overlaps::values]; }
   void take_places(const MeshNodes<Dim>& nodes);
+  /// Of a cell of this rank, or null.
+  const CellOutline* outline_of(LocalIndex cell) const
+  {
+    const LocalIndex outline = cells_[std::size_t(cell)].outline;
+    return outline < 0 ? nullptr : &outlines_[std::size_t(outline)];
+  }
   IndexVec<Dim> apart(LocalIndex from, LocalIndex to) const;
   bool can_meet(LocalIndex own, LocalIndex other) const;
   bool are_neighbours(const Pair& pair) const;
@@ -125,6 +132,8 @@ class OverlapContact final : public SelfContact<Dim> {
   MPI_Comm comm_;
   Ghosts ghosts_, side_ghosts_;
   std::vector<Cell> cells_;
+  std::vector<CellOutline> outlines_;
+  double reach_ = Overlaps::reach;  ///< way of a cell's corners over that of its nodes, at most
   BodyPairs bodies_;
   Vec<Dim> size_;
   IndexVec<Dim> period_;

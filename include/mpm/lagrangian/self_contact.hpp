@@ -3,6 +3,7 @@
 
 #include <mpm/core/lane_vector.hpp>
 #include <mpm/grid/mesh_nodes.hpp>
+#include <mpm/lagrangian/cell_outline.hpp>
 #include <mpm/lagrangian/open_corners.hpp>
 
 #include <array>
@@ -28,11 +29,17 @@ class SelfContact {
     IndexVec<Dim> location;
     double stiffness;  ///< S_c, Pa, in the plane N/m; 0 of a rigid cell: of what it meets
     OpenCorners<Dim> open;
-    int body;             ///< whose cell it is
-    LocalIndex particle;  ///< and which
+    int body;                 ///< whose cell it is
+    LocalIndex particle;      ///< and which
+    LocalIndex outline = -1;  ///< which one it has; none: its corners are its nodes
   };
-  /// Those of this rank that can meet others; `find_pairs` follows.
-  virtual void set_cells(std::vector<Cell> cells) = 0;
+  /// Those of this rank that can meet others.
+  struct Cells {
+    std::vector<Cell> cells;
+    std::vector<CellOutline> outlines{};  ///< in the plane only
+  };
+  /// `find_pairs` follows.
+  virtual void set_cells(Cells cells) = 0;
 
   /// Finds all pairs that can meet before a node has moved by half of `skin`, m. Collective.
   virtual void find_pairs(const MeshNodes<Dim>& nodes, double skin) = 0;

@@ -68,13 +68,14 @@ class TotalLagrangian final : public Formulation<Dim> {
 
  private:
   using CellNodes = typename LocationCells<Dim>::CellNodes;
-  using ContactCell = typename SelfContact<Dim>::Cell;
+  using ContactCells = typename SelfContact<Dim>::Cells;
   using Formulation<Dim>::steps_between_checks;
 
   void make_mesh();
   void take_rest();
   void take_rigid_bodies(std::span<const CellNodes> cells);
-  std::vector<ContactCell> contact_cells(const Occupants<Dim>& occupants) const;
+  std::optional<CellOutline> outline_of(const CellNodes& nodes) const;
+  ContactCells contact_cells(const Occupants<Dim>& occupants) const;
   void list_node_terms();
   void add_masses();
   void give_rigid_mass();

@@ -21,13 +21,14 @@ struct FittedLattice {
 };
 
 /// How far around a corner the lattice decides on its offset, locations.
-inline constexpr LocalIndex fitting_reach = 28;
+inline constexpr LocalIndex fitting_reach = 34;
 
 /// Offsets of the corners of a box of locations. Corners with void on one side move to the surface
 /// of the wall, as far as the cells around them bear it; those within a body follow them a little.
 /// Corners at the specimen's border move along it, as if there were a mirror or the next period;
 /// those at which bodies meet, or locations by a corner alone, stay. Each corner depends on nothing
-/// but what lies within `fitting_reach`: every box finds the same bits, for images of it too.
+/// but what lies within `fitting_reach`: every box finds the same bits, for images of it too. The
+/// ways go on to the surface itself, where edges of cells need not span more than contact needs.
 CornerOffsets<2> fitted_corners(const IndexBox<2>& locations, const FittedLattice& lattice,
                                 const WallPlaces<2>& wall);
 

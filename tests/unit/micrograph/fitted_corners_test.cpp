@@ -62,8 +62,10 @@ TEST(FittedCorners, StayWhereFacesLieOnTheLattice)
   const IndexVec<2> count(20, 12);
   const Inclined wall(0, 4, 7);
   const FittedLattice lattice = lattice_of(wall, count);
-  for (const Vec<2>& offset : fitted_corners(whole(count), lattice, wall).offsets)
+  const CornerOffsets<2> fitted = fitted_corners(whole(count), lattice, wall);
+  for (const Vec<2>& offset : fitted.offsets)
     EXPECT_LT(offset.norm(), 1e-8);  // the place at which a face is found is halved so far
+  for (const Vec<2>& way : fitted.ways) EXPECT_EQ(way, (Vec<2>::Zero()));
 }
 
 TEST(FittedCorners, StandOnFacesAlongTheLattice)
@@ -92,6 +94,30 @@ TEST(FittedCorners, GiveInclinedWallsTheirArea)
   }
 }
 
+TEST(FittedCorners, AreSeenOnTheFacesThatTheyCannotReach)
+{
+  const IndexVec<2> count(60, 66);
+  for (const double slope : {0.2, 0.5, 0.577, 0.9}) {
+    const double length = std::sqrt(1 + slope * slope), lower = 2.37, upper = lower + 2.1 * length;
+    const Inclined wall(slope, lower, upper);
+    const FittedLattice lattice = lattice_of(wall, count);
+    const CornerOffsets<2> offsets = fitted_corners(whole(count), lattice, wall);
+    double off = 0, seen_off = 0;
+    for_each_index(whole(count), [&](const IndexVec<2>& at) {
+      if (at[0] < 3 || at[0] > 57 || offsets.way(at).isZero(0)) return;
+      const auto from_face = [&](const Vec<2>& place) {
+        const double y = place[1] - slope * place[0];
+        return std::min(std::abs(y - lower), std::abs(y - upper)) / length;
+      };
+      const Vec<2> stands = at.cast<double>() + offsets(at);
+      off = std::max(off, from_face(stands));
+      seen_off = std::max(seen_off, from_face(stands + offsets.way(at)));
+    });
+    EXPECT_GT(off, 0.15) << slope;
+    EXPECT_LT(seen_off, 0.08) << slope;
+  }
+}
+
 TEST(FittedCorners, MoveAlongTheBorderOnly)
 {
   const IndexVec<2> count(30, 40);
@@ -101,6 +127,7 @@ TEST(FittedCorners, MoveAlongTheBorderOnly)
   for (int j = 0; j <= 40; ++j)
     for (const int i : {0, 30}) {
       EXPECT_EQ(offsets({i, j})[0], 0);
+      EXPECT_EQ(offsets.way({i, j})[0], 0);
       along += std::abs(offsets({i, j})[1]);
     }
   EXPECT_GT(along, 0.1);
@@ -114,7 +141,10 @@ TEST(FittedCorners, AreTheSameInEveryPart)
   const CornerOffsets<2> all = fitted_corners(whole(count), lattice, wall);
   for (const IndexBox<2>& part : {IndexBox<2>{{0, 0}, {40, 90}}, IndexBox<2>{{40, 30}, {70, 61}}}) {
     const CornerOffsets<2> some = fitted_corners(part, lattice, wall);
-    for_each_index(some.corners, [&](const IndexVec<2>& at) { EXPECT_EQ(some(at), all(at)); });
+    for_each_index(some.corners, [&](const IndexVec<2>& at) {
+      EXPECT_EQ(some(at), all(at));
+      EXPECT_EQ(some.way(at), all.way(at));
+    });
   }
 }
 
@@ -134,6 +164,7 @@ TEST(FittedCorners, AreTheSameAtBothEndsOfAPeriod)
   double moved = 0;
   for (int j = 0; j <= 20; ++j) {
     EXPECT_EQ(offsets({0, j}), offsets({40, j}));
+    EXPECT_EQ(offsets.way({0, j}), offsets.way({40, j}));
     moved += offsets({0, j}).norm();
   }
   EXPECT_GT(moved, 0.1);
