@@ -101,7 +101,7 @@ void take_corners(const CellOutline& outline, double* motion)
       outline.take_corners(of_corners);
     } else {
       for (std::size_t k = 0; k < of_corners.size(); ++k) {
-        const auto weights = outline.weights(k);
+        const auto& weights = outline.shares(k);
         of_corners[k] = 0;
         for (std::size_t i = 0; i < weights.size(); ++i)
           of_corners[k] += weights[i] * weights[i] * of_nodes[i];

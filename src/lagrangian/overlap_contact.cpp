@@ -221,12 +221,18 @@ void OverlapContact<Dim>::add_forces(NodeFields<Dim>& fields) const
   }
 }
 
-/// Around a node of one body, where a wall ends or a corner is open: they touch at rest.
+/// Before they have come nearer by `way`, m. Those around a node of one body, where a wall ends or
+/// a corner is open, touch at rest, and press where the corner has closed.
 template <int Dim>
-bool OverlapContact<Dim>::are_neighbours(const Pair& pair) const
+bool OverlapContact<Dim>::can_press(const Pair& pair, double way) const
 {
-  return of_body_[std::size_t(pair.first)] == of_body_[std::size_t(pair.second)] &&
-         apart(pair.first, pair.second).cwiseAbs().maxCoeff() <= 1;
+  const auto a = std::size_t(pair.first), b = std::size_t(pair.second);
+  if (!meet<Dim>(boxes_[a], boxes_[b], way)) return false;
+  const IndexVec<Dim> apart = this->apart(pair.first, pair.second);
+  if (of_body_[a] != of_body_[b] || apart.cwiseAbs().maxCoeff() > 1) return true;
+  const double *one = values_of(pair.first), *other = values_of(pair.second);
+  return Overlaps::closes_on(one, other, apart, way) ||
+         Overlaps::closes_on(other, one, -apart, way);
 }
 
 template <int Dim>
@@ -245,9 +251,7 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
       pressed[std::size_t(pairs_[k].second)] += presses_[2 * other + 1] * both;
   }
   for (const Pair& pair : pairs_) {
-    if (!meet<Dim>(boxes_[std::size_t(pair.first)], boxes_[std::size_t(pair.second)], way) ||
-        are_neighbours(pair))
-      continue;
+    if (!can_press(pair, way)) continue;
     for (const LocalIndex cell : {pair.first, pair.second})
       if (cell < cells())
         pressed[std::size_t(cell)] = std::max(pressed[std::size_t(cell)], expected);

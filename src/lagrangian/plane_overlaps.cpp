@@ -5,6 +5,8 @@
 #include <mpm/lagrangian/overlap.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace mpm {
 
@@ -61,6 +63,27 @@ constexpr std::array<std::array<std::size_t, 4>, 9> pieces{{{0, 1, 2, 3},
                                                             {3, 1, 2, 2}}};
 
 }  // namespace
+
+/// Outwards of a side, which is not more than to the cell itself where that is convex.
+bool CellOverlaps<2>::closes_on(const double* a, const double* b, const IndexVec<2>& apart,
+                                double distance)
+{
+  const auto way_out = [&](std::size_t corner) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t side = 0; side < 4; ++side) {
+      const std::size_t next = (side + 1) % 4;
+      const double dx = b[next] - b[side], dy = b[next + 4] - b[side + 4];
+      most = std::max(most, ((a[corner] - b[side]) * dy - (a[corner + 4] - b[side + 4]) * dx) /
+                                std::hypot(dx, dy));
+    }
+    return most;
+  };
+  for (std::size_t k = 0; k < 4; ++k) {
+    const IndexVec<2> up(int(order[k] & 1), int(order[k] >> 1));
+    if (!is_shared<2>(up, apart) && way_out(k) < distance) return true;
+  }
+  return false;
+}
 
 /// Most cells whose boxes meet do not, and are neighbours around a corner.
 void CellOverlaps<2>::list_near(std::span<const MeetingCells> cells)

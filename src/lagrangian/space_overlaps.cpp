@@ -2,6 +2,11 @@
 
 #include <mpm/lagrangian/cell_overlaps.hpp>
 
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace mpm {
 
 namespace {
@@ -49,6 +54,24 @@ CellBox<3> CellOverlaps<3>::box_of(const double* values)
     box[3 + d] = values[d] + half;
   }
   return box;
+}
+
+bool CellOverlaps<3>::closes_on(const double* a, const double* b, const IndexVec<3>& apart,
+                                double distance)
+{
+  const Parallelepiped one = brick_at(a), other = brick_at(b);
+  const Eigen::Matrix3d across = other.edges.inverse();
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const IndexVec<3> up(int(corner & 1), int(corner >> 1 & 1), int(corner >> 2));
+    if (is_shared<3>(up, apart)) continue;
+    const Vec<3> ends = up.cast<double>() - Vec<3>::Constant(0.5);
+    const Vec<3> at = across * (one.centre + one.edges * ends - other.centre);
+    double way_out = -std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k)
+      way_out = std::max(way_out, (std::abs(at[k]) - 0.5) / across.row(k).norm());
+    if (way_out < distance) return true;
+  }
+  return false;
 }
 
 void CellOverlaps<3>::find(std::span<const MeetingCells> cells)

@@ -16,9 +16,9 @@ constexpr double near_search = 0.75, search = 1, most_moved = 0.45;
 constexpr double least_span = 0.5;
 constexpr int relaxations = 4, partings = 8, retreats = 12;
 constexpr double retreat = 0.8;
-/// The same of what contact sees: three corners of a tooth may nearly stand on one line there, not
-/// quite. With a share of 0.95 of the way and spans of 0.01 crushed wood turns cells inside out.
-constexpr double most_seen = 0.75, least_span_seen = 0.1, way_on = 0.7, way_back = 0.5;
+/// The same of what contact sees, and the share of the way back to the surface. Teeth are cut, and
+/// notches left: where contact sees as much beyond the nodes, one crush of wood in ten flies apart.
+constexpr double most_seen = 0.75, least_span_seen = 0.1, way_on = 0.6, way_back = 0.5;
 constexpr int ways_back = 6;
 constexpr double least_way = 1e-6;
 static_assert(fitting_reach > 1 + relaxations + partings + retreats + ways_back + 1);
@@ -60,6 +60,7 @@ class Fitter {
     unsigned cells = 0;           ///< bit c: it is corner c of one
     std::array<bool, 4> along{};  ///< the surface goes on to the next one: -x, +x, -y, +y
     Vec<2> to_surface = Vec<2>::Zero();
+    bool within = false;  ///< the wall, where it is on the lattice
   };
 
   std::size_t place(const IndexVec<2>& at) const { return std::size_t(number_in(box_, at)); }
@@ -119,19 +120,22 @@ class Fitter {
     // Corner c of a cell: the cell lies below it where bit d is set.
     node.along = {has(1) != has(3), has(0) != has(2), has(2) != has(3), has(0) != has(1)};
     node.kind = node.cells == 0b1111u ? Kind::interior : Kind::surface;
-    if (node.kind == Kind::surface) node.to_surface = to_surface(at, node.held);
+    if (node.kind == Kind::surface) {
+      node.within = is_wall(at.cast<double>());
+      node.to_surface = to_surface(at, node);
+    }
     return node;
   }
 
   /// To the nearest place along the direction in which most of the wall around a corner lies, or
   /// away from it, at which wall and void meet.
-  Vec<2> to_surface(const IndexVec<2>& corner, const std::array<bool, 2>& held) const
+  Vec<2> to_surface(const IndexVec<2>& corner, const Node& node) const
   {
     const Vec<2> centre = corner.cast<double>();
-    Vec<2> direction = towards_wall(centre, near_search, held);
-    if (direction.isZero()) direction = towards_wall(centre, search, held);
+    Vec<2> direction = towards_wall(centre, near_search, node.held);
+    if (direction.isZero()) direction = towards_wall(centre, search, node.held);
     if (direction.isZero()) return direction;
-    const bool within = is_wall(centre);
+    const bool within = node.within;
     if (within) direction = -direction;
     constexpr int steps = 12, halvings = 30;
     double near = 0, far = 0;
@@ -227,13 +231,14 @@ class Fitter {
     if (node.kind != Kind::surface) return whole_[k] * mean_[k];
     return whole_[k] * bounded(mean_[k] + part_[k] * (node.to_surface - mean_[k]), node);
   }
-  /// From there to the surface.
+  /// From there to the surface, if that lies on the wall's side.
   Vec<2> way(std::size_t k) const
   {
     const Node& node = nodes_[k];
     if (node.kind != Kind::surface || node.to_surface.isZero(0)) return Vec<2>::Zero();
     const Vec<2> way = bounded(node.to_surface, node, most_seen) - offset(k);
-    if (way.norm() < least_way) return Vec<2>::Zero();
+    const bool outwards = (way.dot(node.to_surface) > 0) == node.within;
+    if (outwards || way.norm() < least_way) return Vec<2>::Zero();
     return seen_[k] * way;
   }
 

@@ -143,17 +143,23 @@ TEST(Plates, AcrossTheLatticeTurnBackWhereTheTeethOfTheirStairsMeet)
   }
 }
 
-/// Teeth are left where fitted corners stand, 0.24 of a location to either side. Contact
-/// sees less than a third of it.
+/// Teeth are left where fitted corners stand, 0.24 of a location to either side. Contact sees two
+/// fifths of what is beyond the face; what is short of it lets the tips of teeth in.
 TEST(Plates, AcrossTheLatticeTurnBackWhereTheirFacesMeetIfTheyAreFitted)
 {
-  for (const double angle : {15.0, 30.0, 45.0})
+  for (const double angle : {15.0, 30.0, 45.0}) {
+    double mean = 0;
     for (const double apart : {2.5, 2.9, 3.3, 3.7})
       for (const double slide : {0.0, 0.3}) {
         const double gap = closest({angle, apart, slide, "fitted"});
-        EXPECT_GT(gap, -0.04) << angle << ", " << apart << ", " << slide;
-        EXPECT_LT(gap, 0.08) << angle << ", " << apart << ", " << slide;
+        EXPECT_GT(gap, -0.13) << angle << ", " << apart << ", " << slide;
+        EXPECT_LT(gap, 0.1) << angle << ", " << apart << ", " << slide;
+        mean += gap / 8;
       }
+    std::printf("%g degrees: mean gap %.2f fitted\n", angle, mean);
+    EXPECT_GT(mean, -0.03) << angle;
+    EXPECT_LT(mean, 0.06) << angle;
+  }
 }
 
 }  // namespace

@@ -31,6 +31,16 @@ bool meet(const CellBox<Dim>& a, const CellBox<Dim>& b, double distance)
   return found;
 }
 
+/// Whether the corner at the ends `up` of a location's edges is one of the location that lies
+/// `apart` from it, too.
+template <int Dim>
+bool is_shared(const IndexVec<Dim>& up, const IndexVec<Dim>& apart)
+{
+  for (int d = 0; d < Dim; ++d)
+    if (apart[d] != 0 && (apart[d] > 0) != (up[d] > 0)) return false;
+  return true;
+}
+
 template <int Dim>
 using CornerPlaces = std::array<Vec<Dim>, std::size_t(1 << Dim)>;
 
@@ -99,6 +109,10 @@ class CellOverlaps<2> {
     };
     return {least(at), least(at + 4), most(at), most(at + 4)};
   }
+  /// Of neighbours around a node, b lies `apart` from a in the lattice: whether another corner of a
+  /// than the one there is nearer than `distance`, m, to b.
+  static bool closes_on(const double* a, const double* b, const IndexVec<2>& apart,
+                        double distance);
 
   /// Those that are not apart, in the order of `cells`. One with a reflex corner comes as two
   /// triangles, so that a pair may have several entries, which stand side by side.
@@ -144,6 +158,9 @@ class CellOverlaps<3> {
   static void describe(const CornerPlaces<3>& corners, double* values);
   static void shift(const Vec<3>& way, double* values);
   static CellBox<3> box_of(const double* values);
+  /// Of neighbours around a node or an edge, as in the plane.
+  static bool closes_on(const double* a, const double* b, const IndexVec<3>& apart,
+                        double distance);
 
   /// Those that lie upon each other, in the order of `cells`.
   void find(std::span<const MeetingCells> cells);

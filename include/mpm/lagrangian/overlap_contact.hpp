@@ -75,6 +75,10 @@ class OverlapContact final : public SelfContact<Dim> {
 
   LocalIndex cells() const { return LocalIndex(cells_.size()); }
   double* values_of(LocalIndex cell) { return &values_[std::size_t(cell) * Overlaps::values]; }
+  const double* values_of(LocalIndex cell) const
+  {
+    return &values_[std::size_t(cell) * Overlaps::values];
+  }
   void take_places(const MeshNodes<Dim>& nodes);
   /// Of a cell of this rank, or null.
   const CellOutline* outline_of(LocalIndex cell) const
@@ -84,7 +88,7 @@ class OverlapContact final : public SelfContact<Dim> {
   }
   IndexVec<Dim> apart(LocalIndex from, LocalIndex to) const;
   bool can_meet(LocalIndex own, LocalIndex other) const;
-  bool are_neighbours(const Pair& pair) const;
+  bool can_press(const Pair& pair, double way) const;
   bool are_of_one_wall(LocalIndex a, LocalIndex b) const;
   void find_boxes();
   bool is_there(int image) const;
