@@ -17,7 +17,7 @@ constexpr double least_span = 0.5;
 constexpr int relaxations = 4, partings = 8, retreats = 12;
 constexpr double retreat = 0.8;
 /// The same of what contact sees, and the share of the way back to the surface. Teeth are cut, and
-/// notches left: where contact sees as much beyond the nodes, one crush of wood in ten flies apart.
+/// notches left: filled, they would keep faces apart by some hundredths more.
 constexpr double most_seen = 0.75, least_span_seen = 0.1, way_on = 0.6, way_back = 0.5;
 constexpr int ways_back = 6;
 constexpr double least_way = 1e-6;
