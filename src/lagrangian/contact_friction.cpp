@@ -13,7 +13,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace mpm {
 
@@ -42,15 +41,6 @@ struct Shares {
       of[c] = slopes.by[c][0] * direction[0];
       for (int d = 1; d < Dim; ++d) of[c] += slopes.by[c][d] * direction[d];
     }
-  }
-  /// At the nodes of a cell that has an outline.
-  void take_nodes(const CellOutline& outline)
-  {
-    std::array<double, corners> of_corners{};
-    for (std::size_t c = 0; c < corners; ++c) of_corners[corner[c]] += of[c];
-    outline.give_nodes(of_corners);
-    std::copy_n(of_corners.begin(), corners, of);
-    std::iota(corner.begin(), corner.end(), std::size_t(0));
   }
   double velocity(const double* motion, int axis) const
   {
@@ -146,7 +136,8 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double dt,
     const double face = length_of(slope);
     if (!(face > 0)) continue;
     const Vec<Dim> normal = slope / face;
-    const Shares<Dim> one(of_one, normal / face), other(of_other, -normal / face);
+    const Vec<Dim> direction = normal / face;
+    const Shares<Dim> one(of_one, direction), other(of_other, -direction);
     const double *moving = &motion_[std::size_t(a) * width],
                  *against = &motion_[std::size_t(b) * width];
     const auto tangents = tangents_of(normal);
@@ -161,10 +152,11 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double dt,
     const double most = coefficient * pressure(found_.pair(entry)) * face;
     const Vec<Dim - 1> push =
         -std::min(most, stopped_at_once<Dim> * speed / (mobility * dt)) * (slip / speed);
-    const auto add = [&](LocalIndex cell, Shares<Dim> shares, double sign) {
+    const auto add = [&](LocalIndex cell, OverlapSlopes<Dim> slopes, double sign) {
       if (cell >= cells()) return;
       if constexpr (Dim == 2)
-        if (const CellOutline* outline = outline_of(cell)) shares.take_nodes(*outline);
+        if (const CellOutline* outline = outline_of(cell)) slopes.take_nodes(*outline);
+      const Shares<Dim> shares(slopes, sign * direction);
       for (std::size_t c = 0; c < corners_of_cell; ++c) {
         const auto node = std::size_t(cells_[std::size_t(cell)].nodes[shares.corner[c]]);
         for (int t = 0; t < Dim - 1; ++t) {
@@ -174,8 +166,8 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double dt,
         }
       }
     };
-    add(a, one, 1);
-    add(b, other, -1);
+    add(a, of_one, 1);
+    add(b, of_other, -1);
   }
 }
 

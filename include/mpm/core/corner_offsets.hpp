@@ -12,7 +12,7 @@ template <int Dim>
 struct CornerOffsets {
   IndexBox<Dim> corners{};
   std::vector<Vec<Dim>> offsets;  ///< x fastest; empty: all stand on the lattice
-  std::vector<Vec<Dim>> ways;     ///< on from there to the wall's surface, of those near it
+  std::vector<Vec<Dim>> ways;     ///< from there to where contact sees them
 
   bool empty() const { return offsets.empty(); }
   Vec<Dim> operator()(const IndexVec<Dim>& corner) const

@@ -28,7 +28,7 @@ inline constexpr LocalIndex fitting_reach = 34;
 /// Corners at the specimen's border move along it, as if there were a mirror or the next period;
 /// those at which bodies meet, or locations by a corner alone, stay. Each corner depends on nothing
 /// but what lies within `fitting_reach`: every box finds the same bits, for images of it too. The
-/// ways go on to the surface itself, where edges of cells need not span more than contact needs.
+/// ways lead corners that stand beyond the surface back towards it, as far as contact bears it.
 CornerOffsets<2> fitted_corners(const IndexBox<2>& locations, const FittedLattice& lattice,
                                 const WallPlaces<2>& wall);
 

@@ -2,6 +2,8 @@
 #include <mpm/lagrangian/cell_overlaps.hpp>
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,26 +19,16 @@ std::vector<double> cell(Vec<Dim> node, double angle, int turns)
   CornerPlaces<Dim> places;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const std::size_t corner = CellOverlaps<Dim>::order[k];
-    Vec<Dim> at = node;
-    const double x = double(corner & 1), y = double(corner >> 1 & 1);
+    double x = double(corner & 1), y = double(corner >> 1 & 1);
+    // Which corner is which does not turn with them: where it was before.
+    for (int turn = 0; turn < turns; ++turn) std::tie(x, y) = std::pair(y, 1 - x);
+    Vec<Dim>& at = places[k] = node;
     at[0] += std::cos(angle) * x + std::sin(angle) * y;
     at[1] += std::cos(angle) * y - std::sin(angle) * x;
     if constexpr (Dim == 3) at[2] += double(corner >> 2);
-    places[k] = at;
-  }
-  // Which corner is which does not turn with them.
-  for (int turn = 0; turn < turns; ++turn) {
-    const CornerPlaces<Dim> before = places;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const std::size_t corner = CellOverlaps<Dim>::order[k];
-      const std::size_t from = (corner & ~std::size_t(3)) | (corner >> 1 & 1) | (~corner & 1) << 1;
-      for (std::size_t l = 0; l < places.size(); ++l)
-        if (CellOverlaps<Dim>::order[l] == from) {
-          places[k] = before[l];
-          const double x = places[k][0];
-          places[k][0] = -places[k][1];
-          places[k][1] = x;
-        }
+    for (int turn = 0; turn < turns; ++turn) {
+      std::swap(at[0], at[1]);
+      at[0] = -at[0];
     }
   }
   std::vector<double> values(std::size_t(CellOverlaps<Dim>::values));
@@ -51,11 +43,10 @@ void expect_the_width_of_the_corner()
     for (int turns = 0; turns < 4; ++turns) {
       const double radians = open * std::acos(-1.0) / 180, width = std::sin(radians);
       Vec<Dim> node = Vec<Dim>::Zero();
-      std::vector<double> one;
       node[0] = node[1] = -1;
-      one = cell<Dim>(node, 0, turns);
-      const std::vector<double> other =
-          cell<Dim>(Vec<Dim>::Zero(), std::acos(0.0) - radians, turns);
+      const std::vector<double> one = cell<Dim>(node, 0, turns),
+                                other =
+                                    cell<Dim>(Vec<Dim>::Zero(), std::acos(0.0) - radians, turns);
       IndexVec<Dim> apart = IndexVec<Dim>::Zero();
       apart[0] = turns == 0 || turns == 3 ? 1 : -1;
       apart[1] = turns < 2 ? 1 : -1;
