@@ -50,6 +50,7 @@ void TotalLagrangian<Dim>::step(double dt)
   largest_speed_ = std::max(largest_speed_, nodes_->move(*fields_, dt));
   particles_are_present_ = false;
   time_ += dt;
+  kicked_time_ += between;
   ++steps_;
   last_step_ = dt;
   add_forces(dt);

@@ -115,7 +115,7 @@ void History<Dim>::begin_line(HistoryLine& line)
   if (!apparatus_) return;
   // A wall at the upper end pushes towards lower coordinates.
   const double towards = apparatus_->piston->placement().upper ? -1 : 1;
-  const double duration = line.time - last_time_;
+  const double duration = formulation_.kicked_time() - last_kicked_time_;
   const double per_area = duration > 0 ? 1 / (apparatus_->area * duration) : 0;
   // + 0.0: no minus before a zero.
   line.piston_stress = towards * piston_impulse_ * per_area + 0.0;
@@ -186,7 +186,7 @@ const HistoryLine& History<Dim>::record(double dt)
     line.strain = apparatus_->strain(line.time);
     count_outside(line);
   }
-  last_time_ = line.time;
+  last_kicked_time_ = formulation_.kicked_time();
   check(sums, line);
   balance(line, sums);
   return lines_.emplace_back(line);
@@ -245,7 +245,7 @@ void History<Dim>::archive(Archive& archive)
   archive.value("work_size", work_size_);
   archive.value("piston_impulse", piston_impulse_);
   archive.value("edge_impulse", edge_impulse_);
-  archive.value("last_time", last_time_);
+  archive.value("last_kicked_time", last_kicked_time_);
   archive.value("load_cell_mass_stress", load_cell_.mass_stress);
   archive.value("load_cell_mass", load_cell_.mass);
   archive.value("deepest_behind_piston", deepest_behind_piston_);

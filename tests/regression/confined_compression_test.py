@@ -105,6 +105,17 @@ class ConfinedCompression(ExactLine):
         self.assertGreater(flow, 0.001)
         self.assertAlmostEqual(history["plastic_work"][-1] / (VOLUME * YIELD * flow), 1, delta=0.03)
 
+    def test_a_last_line_of_less_than_a_step_has_the_stress_of_the_others(self):
+        for formulation in ("updated_lagrangian", "total_lagrangian"):
+            with self.subTest(formulation):
+                history = History(self.results(
+                    "confined_block", f"numerics.formulation={formulation}",
+                    "output.history_lines=100000", "loading.strain=0.3 %", ranks=2))
+                self.assertLess(history["time_step"][-1], 0.6 * history["time_step"][-2])
+                for column in ("stress_piston", "stress_edge"):
+                    self.assertAlmostEqual(history[column][-1] / history[column][-2], 1,
+                                           delta=0.005, msg=column)
+
     def test_load_cell_reads_what_piston_and_edge_feel(self):
         history = self.compare("loading.load_cell.cells=3", exact=behind_load_cell, load_cell=True)
         self.assertIn("stress_load_cell", history.names)

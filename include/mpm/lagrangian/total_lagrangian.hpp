@@ -46,6 +46,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   const Agreed& agreed() const override { return agreed_; }
 
   double time() const override { return time_; }
+  double kicked_time() const override { return kicked_time_; }
   GlobalIndex steps() const override { return steps_; }
   const std::vector<Body<Dim>>& bodies() const override;
   const Decomposition<Dim>& decomposition() const override { return decomposition_; }
@@ -129,7 +130,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   FailedCells failed_;        ///< of this rank
   Occupants<Dim> occupants_;  ///< where cells may fail
 
-  double time_ = 0, last_step_ = 0;
+  double time_ = 0, kicked_time_ = 0, last_step_ = 0;
   GlobalIndex steps_ = 0;
   Agreed agreed_;
   GlobalIndex checked_ = 0;

@@ -58,7 +58,7 @@ class History {
   double external_work_ = 0;
   Vec<Dim> impulse_ = Vec<Dim>::Zero();  ///< N s, from outside
   double impulse_size_ = 0;              ///< N s, sum of the sizes
-  double last_time_ = 0;
+  double last_kicked_time_ = 0;
   AxialStress load_cell_;
   double work_size_ = 0;  ///< J, sum of the sizes
   /// Since the last line, N s along the axis.

@@ -75,6 +75,8 @@ class Formulation {
   virtual const Agreed& agreed() const = 0;
 
   virtual double time() const = 0;  ///< s
+  /// s, over which forces have changed velocities: not `time` where these stand between steps.
+  virtual double kicked_time() const { return time(); }
   virtual GlobalIndex steps() const = 0;
   /// Their particles as they are now.
   virtual const std::vector<Body<Dim>>& bodies() const = 0;
