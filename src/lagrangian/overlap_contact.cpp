@@ -153,17 +153,23 @@ void OverlapContact<Dim>::list_touches()
 }
 
 /// dW/ds_d = S_c V0 (H(T_d) + sum over d and its neighbours e of s_e H'(T_e)); with the stiffness
-/// of d and e in place of S_c where c is rigid.
+/// of d and e in place of S_c where c is rigid. A share falls with the overlap as it grows with
+/// the cell: dW/dV_c = - sum over d of dW/dA_cd A_cd / V_c, A the overlap.
 template <int Dim>
 void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touch> touches)
 {
   const std::size_t count = touches.size();
   const bool rigid = is_rigid(LocalIndex(cell));
   const double stiffness = rigid ? 1.0 : stiffness_[cell];
+  const double volume = Overlaps::volume(values_of(LocalIndex(cell)));
+  const bool bears_less = !rigid && volume > least_squeezed * cells_[cell].volume;
+  const double squeezed = bears_less ? volume / cells_[cell].volume : rigid ? 1.0 : least_squeezed;
   parts_.resize(count);
   beside_.resize(count * count);
   for (std::size_t k = 0; k < count; ++k) {
-    parts_[k].share = OverlapShare(touches[k].overlap / cell_volume_).value;
+    const OverlapShare share(touches[k].overlap / (squeezed * cell_volume_));
+    parts_[k].share = share.value;
+    parts_[k].slope = share.slope;
     parts_[k].face = touches[k].face;
     for (std::size_t j = 0; j < k; ++j)
       beside_[k * count + j] = beside_[j * count + k] =
@@ -185,13 +191,19 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
     energy_ += stiffness * cell_volume_ * part.share * part.own;
     if (!(together > 0)) continue;
     double* largest = &presses_[2 * std::size_t(touches[k].side)];
-    largest[0] = std::max(largest[0], OverlapPotential::stiffness(together) *
-                                          add_beside(k, &Part::face) / cell_face_);
+    largest[0] =
+        std::max(largest[0], OverlapPotential::stiffness(together) * add_beside(k, &Part::face) /
+                                 (squeezed * squeezed * cell_face_));
     largest[1] = std::max(largest[1], part.share / together);
   }
-  for (std::size_t k = 0; k < count; ++k)
-    sides_[std::size_t(touches[k].side)] =
-        stiffness * (parts_[k].own + add_beside(k, &Part::change));
+  double swelling = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double side =
+        stiffness / squeezed * parts_[k].slope * (parts_[k].own + add_beside(k, &Part::change));
+    sides_[std::size_t(touches[k].side)] = side;
+    swelling += side * touches[k].overlap / volume;
+  }
+  swelling_[cell] = bears_less ? swelling : 0;
 }
 
 /// Whether cells are so near in the lattice that what a third one presses them with adds up.
@@ -204,20 +216,26 @@ bool OverlapContact<Dim>::are_of_one_wall(LocalIndex a, LocalIndex b) const
 template <int Dim>
 void OverlapContact<Dim>::add_forces(NodeFields<Dim>& fields) const
 {
+  const auto push = [&](LocalIndex cell, OverlapSlopes<Dim> slopes, double pressure) {
+    if constexpr (Dim == 2)
+      if (const CellOutline* outline = outline_of(cell)) slopes.take_nodes(*outline);
+    for (std::size_t c = 0; c < corners_of_cell; ++c) {
+      double* force = fields.force_of(cells_[std::size_t(cell)].nodes[slopes.corner[c]]);
+      for (int d = 0; d < Dim; ++d) force[d] += pressure * slopes.by[c][d];
+    }
+  };
   for (std::size_t entry = 0; entry < found_.size(); ++entry) {
     if (!(found_.overlap(entry) > 0)) continue;
-    const double push = pressure(found_.pair(entry));
+    const double pressure = this->pressure(found_.pair(entry));
     for (const int side : {0, 1}) {
       const LocalIndex cell = cell_of(entry, side);
-      if (cell >= cells()) continue;
-      OverlapSlopes<Dim> slopes = found_.slopes(entry, side);
-      if constexpr (Dim == 2)
-        if (const CellOutline* outline = outline_of(cell)) slopes.take_nodes(*outline);
-      for (std::size_t c = 0; c < corners_of_cell; ++c) {
-        double* force = fields.force_of(cells_[std::size_t(cell)].nodes[slopes.corner[c]]);
-        for (int d = 0; d < Dim; ++d) force[d] -= push * slopes.by[c][d];
-      }
+      if (cell < cells()) push(cell, found_.slopes(entry, side), -pressure);
     }
+  }
+  for (LocalIndex cell = 0; cell < cells(); ++cell) {
+    const auto c = std::size_t(cell);
+    if (first_touch_[c] < first_touch_[c + 1])
+      push(cell, Overlaps::volume_slopes(values_of(cell)), swelling_[c]);
   }
 }
 

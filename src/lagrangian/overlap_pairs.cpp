@@ -51,6 +51,7 @@ void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
   const std::size_t own = cells_.size();
   values_.resize(own * Overlaps::values);
   stiffness_.resize(own);
+  swelling_.assign(own, 0.0);
   locations_.resize(own);
   open_.resize(own);
   of_body_.resize(own);

@@ -64,6 +64,16 @@ constexpr std::array<std::array<std::size_t, 4>, 9> pieces{{{0, 1, 2, 3},
 
 }  // namespace
 
+OverlapSlopes<2> CellOverlaps<2>::volume_slopes(const double* of)
+{
+  OverlapSlopes<2> slopes{.by = {}, .corner = {0, 1, 2, 3}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t next = (k + 1) % 4, last = (k + 3) % 4;
+    slopes.by[k] = {0.5 * (of[next + 4] - of[last + 4]), 0.5 * (of[last] - of[next])};
+  }
+  return slopes;
+}
+
 /// Outwards of a side, which is not more than to the cell itself where that is convex.
 bool CellOverlaps<2>::closes_on(const double* a, const double* b, const IndexVec<2>& apart,
                                 double distance)

@@ -2,6 +2,7 @@
 
 #include <mpm/lagrangian/cell_overlaps.hpp>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,20 @@ double sign_of(std::size_t corner, int axis)
 Parallelepiped brick_at(const double* values)
 {
   return {Eigen::Map<const Vec<3>>(values), Eigen::Map<const Eigen::Matrix3d>(values + 3)};
+}
+
+OverlapSlopes<3> by_corners(const BrickOverlap::Slopes& of_cell)
+{
+  OverlapSlopes<3> slopes{.by = {of_cell.by_centre / 8}, .corner = CellOverlaps<3>::order};
+  // From one corner to two, four and eight.
+  for (std::size_t k = 0, known = 1; k < 3; ++k, known *= 2) {
+    const Vec<3> half = 0.25 * of_cell.by_edges.col(Eigen::Index(k));
+    for (std::size_t c = 0; c < known; ++c) {
+      slopes.by[c + known] = slopes.by[c] + half;
+      slopes.by[c] -= half;
+    }
+  }
+  return slopes;
 }
 
 }  // namespace
@@ -56,6 +71,20 @@ CellBox<3> CellOverlaps<3>::box_of(const double* values)
   return box;
 }
 
+double CellOverlaps<3>::volume(const double* values)
+{
+  return brick_at(values).edges.determinant();
+}
+
+OverlapSlopes<3> CellOverlaps<3>::volume_slopes(const double* values)
+{
+  const Eigen::Matrix3d edges = brick_at(values).edges;
+  BrickOverlap::Slopes slopes;
+  for (int k = 0; k < 3; ++k)
+    slopes.by_edges.col(k) = edges.col((k + 1) % 3).cross(edges.col((k + 2) % 3));
+  return by_corners(slopes);
+}
+
 bool CellOverlaps<3>::closes_on(const double* a, const double* b, const IndexVec<3>& apart,
                                 double distance)
 {
@@ -86,17 +115,7 @@ void CellOverlaps<3>::find(std::span<const MeetingCells> cells)
 OverlapSlopes<3> CellOverlaps<3>::slopes(std::size_t entry, int side) const
 {
   const BrickOverlap& overlap = near_[entry].overlap;
-  const BrickOverlap::Slopes& of_cell = side == 0 ? overlap.a : overlap.b;
-  OverlapSlopes<3> slopes{.by = {of_cell.by_centre / 8}, .corner = order};
-  // From one corner to two, four and eight.
-  for (std::size_t k = 0, known = 1; k < 3; ++k, known *= 2) {
-    const Vec<3> half = 0.25 * of_cell.by_edges.col(Eigen::Index(k));
-    for (std::size_t c = 0; c < known; ++c) {
-      slopes.by[c + known] = slopes.by[c] + half;
-      slopes.by[c] -= half;
-    }
-  }
-  return slopes;
+  return by_corners(side == 0 ? overlap.a : overlap.b);
 }
 
 }  // namespace mpm

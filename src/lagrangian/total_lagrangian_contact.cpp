@@ -5,22 +5,29 @@
 
 namespace mpm {
 
-/// `nodes`: in the order of CellOverlaps.
+/// Its outline and its volume. `nodes`: in the order of CellOverlaps.
 template <int Dim>
-std::optional<CellOutline> TotalLagrangian<Dim>::outline_of(const CellNodes& nodes) const
+auto TotalLagrangian<Dim>::form_of(const CellNodes& nodes) const -> CellForm
 {
-  if constexpr (Dim == 2) {
-    if (setup_.offsets.empty()) return std::nullopt;
-    std::array<Vec<2>, CellOutline::corners> rest, ways;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const IndexVec<2>& corner = nodes_->corner(nodes[k]);
-      for (int d = 0; d < 2; ++d) rest[k][d] = nodes_->rest(nodes[k], d);
-      rest[k] += setup_.offsets(corner);
-      ways[k] = setup_.offsets.way(corner);
+  CellForm form;
+  CornerPlaces<Dim> rest;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    for (int d = 0; d < Dim; ++d) rest[k][d] = nodes_->rest(nodes[k], d);
+  if constexpr (Dim == 2)
+    if (!setup_.offsets.empty()) {
+      CornerPlaces<2> ways;
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const IndexVec<2>& corner = nodes_->corner(nodes[k]);
+        rest[k] += setup_.offsets(corner);
+        ways[k] = setup_.offsets.way(corner);
+      }
+      form.outline = CellOutline::at(rest, ways);
+      if (form.outline) form.outline->take_corners(rest);
     }
-    return CellOutline::at(rest, ways);
-  }
-  return std::nullopt;
+  double values[CellOverlaps<Dim>::values];
+  CellOverlaps<Dim>::describe(rest, values);
+  form.volume = CellOverlaps<Dim>::volume(values);
+  return form;
 }
 
 template <int Dim>
@@ -40,10 +47,12 @@ auto TotalLagrangian<Dim>::contact_cells(const Occupants<Dim>& occupants) const 
     if (!near_surface<Dim>(location, is_taken)) return;
     CellNodes nodes;
     for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] = corners[CellOverlaps<Dim>::order[k]];
-    near.cells.push_back({nodes, location, stiffness, {location, is_taken}, body, particle});
-    if (const auto outline = outline_of(nodes)) {
+    const CellForm form = form_of(nodes);
+    near.cells.push_back(
+        {nodes, location, stiffness, form.volume, {location, is_taken}, body, particle});
+    if (form.outline) {
       near.cells.back().outline = LocalIndex(near.outlines.size());
-      near.outlines.push_back(*outline);
+      near.outlines.push_back(*form.outline);
     }
   };
   int b = 0;

@@ -48,8 +48,8 @@ struct Mesh {
 template <int Dim>
 typename OverlapContact<Dim>::Cell cell_at(int number, const IndexVec<Dim>& location)
 {
-  typename OverlapContact<Dim>::Cell cell{{}, location, stiffness, OpenCorners<Dim>::all(),
-                                          0,  number};
+  typename OverlapContact<Dim>::Cell cell{
+      {}, location, stiffness, size<Dim>().prod(), OpenCorners<Dim>::all(), 0, number};
   for (int k = 0; k < corners<Dim>; ++k)
     cell.nodes[std::size_t(k)] = LocalIndex(corners<Dim> * number + k);
   return cell;

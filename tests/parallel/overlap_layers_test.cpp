@@ -14,9 +14,10 @@ template <int Dim>
 struct Layers {
   static constexpr int across = 10, of_layer = Dim == 2 ? across : across * across;
 
-  /// `slide`: m/s, of the upper layer, with friction of 0.3.
+  /// `slide`: m/s, of the upper layer, with friction of 0.3; `squeezed`: all heights, over those of
+  /// cells at rest.
   Layers(double depth, const Vec<Dim>& shift, double turn = 0,
-         const Vec<Dim>& slide = Vec<Dim>::Zero())
+         const Vec<Dim>& slide = Vec<Dim>::Zero(), double squeezed = 1)
   {
     typename OverlapContact<Dim>::Cells surface;
     std::vector<Vec<Dim>> places;
@@ -38,6 +39,7 @@ struct Layers {
             at[0] = about[0] + std::cos(turn) * x + std::sin(turn) * z;
             at[2] = about[2] - std::sin(turn) * x + std::cos(turn) * z;
           }
+        at[1] *= squeezed;
         places.push_back(at);
       }
     }
@@ -100,9 +102,34 @@ void press_layers()
   }
 }
 
+/// Cells of half the height that lie upon each other by the same part of it store the same energy
+/// per cell, and press twice as hard.
+template <int Dim>
+void press_squeezed_layers()
+{
+  for (const double shift : {0.0, 0.3}) {
+    const Vec<Dim> along = shift * Vec<Dim>::Unit(0), still = Vec<Dim>::Zero();
+    const Layers<Dim> whole(0.03, along), half(0.03, along, 0, still, 0.5);
+    EXPECT_NEAR(half.pressure() / whole.pressure(), 2, 1e-9) << shift;
+    // Beyond a tenth of their volume they do not become stiffer: the depth is a tenth of that.
+    const Layers<Dim> tenth(0.03, along, 0, still, 0.1), less(0.06, along, 0, still, 0.05);
+    EXPECT_NEAR(less.pressure() / tenth.pressure(), 1, 1e-9) << shift;
+  }
+}
+
 TEST(OverlapContact, PressesAlikeHoweverTheLatticesLie)
 {
   press_layers<2>();
+}
+
+TEST(OverlapContact, IsAsMuchStifferAsItsCellsAreSqueezed)
+{
+  press_squeezed_layers<2>();
+}
+
+TEST(OverlapContactInSpace, IsAsMuchStifferAsItsCellsAreSqueezed)
+{
+  press_squeezed_layers<3>();
 }
 
 TEST(OverlapContactInSpace, PressesAlikeHoweverTheLatticesLie)

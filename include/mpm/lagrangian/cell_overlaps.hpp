@@ -109,6 +109,11 @@ class CellOverlaps<2> {
     };
     return {least(at), least(at + 4), most(at), most(at + 4)};
   }
+  static double volume(const double* of)  ///< m^2
+  {
+    return 0.5 * ((of[2] - of[0]) * (of[7] - of[5]) - (of[3] - of[1]) * (of[6] - of[4]));
+  }
+  static OverlapSlopes<2> volume_slopes(const double* of);
   /// Of neighbours around a node, b lies `apart` from a in the lattice: whether another corner of a
   /// than the one there is nearer than `distance`, m, to b.
   static bool closes_on(const double* a, const double* b, const IndexVec<2>& apart,
@@ -158,6 +163,8 @@ class CellOverlaps<3> {
   static void describe(const CornerPlaces<3>& corners, double* values);
   static void shift(const Vec<3>& way, double* values);
   static CellBox<3> box_of(const double* values);
+  static double volume(const double* values);  ///< m^3
+  static OverlapSlopes<3> volume_slopes(const double* values);
   /// Of neighbours around a node or an edge, as in the plane.
   static bool closes_on(const double* a, const double* b, const IndexVec<3>& apart,
                         double distance);

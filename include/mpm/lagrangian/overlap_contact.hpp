@@ -18,9 +18,11 @@ namespace mpm {
 /// what the share of c counts as on which cell d lies, which has no face in common with it, T_cd
 /// that and those of d's neighbours on c, H what it stores (overlap_potential.hpp), V0 the volume
 /// of a cell at rest (in the plane its area) and S_c = kappa C (in the plane times the thickness),
-/// C the modulus of the fastest wave. Across a flush face the pressure is about 2 kappa C times the
-/// depth over the size of a cell as long as that is small, however the lattices of the two sides
-/// lie to each other; what presses a cell from elsewhere does not enter. No normals, no closest
+/// C the modulus of the fastest wave. The share is one of the cell as it is now, J V0 with J from
+/// its corners: one that is pressed to a third of its volume is nine times as stiff, as its
+/// material is. Across a flush face the pressure is about 2 kappa C times the depth over the size
+/// of a cell as long as that is small, however the lattices of the two sides lie to each other;
+/// what presses a cell from elsewhere does not enter but by J. No normals, no closest
 /// features: what the corners bear is the derivative. A rigid cell has, with each cell it meets,
 /// the stiffness of that one.
 ///
@@ -30,6 +32,8 @@ template <int Dim>
 class OverlapContact final : public SelfContact<Dim> {
   using Overlaps = CellOverlaps<Dim>;
   static constexpr std::size_t corners_of_cell = 1 << Dim;
+  /// Of its volume at rest: a cell that has less, or is turned inside out, counts as this.
+  static constexpr double least_squeezed = 0.1;
 
  public:
   using typename SelfContact<Dim>::Cell;
@@ -122,15 +126,14 @@ class OverlapContact final : public SelfContact<Dim> {
   /// Of a touch: what its overlap counts as, its face, m^2 or m, what it stores, and by how much
   /// its neighbours' answers grow with it.
   struct Part {
-    double share, face, own, change;
+    double share, slope, face, own, change;
   };
   bool is_rigid(LocalIndex cell) const { return stiffness_[std::size_t(cell)] == 0; }
   void answer_overlaps(std::size_t cell, std::span<const Touch> touches);
   /// What presses in a pair, of both its sides, Pa, in the plane N/m.
   double pressure(std::size_t pair) const
   {
-    return OverlapShare(overlaps_[pair] / cell_volume_).slope *
-           (sides_[pair] + sides_[std::size_t(second_side_[pair])]);
+    return sides_[pair] + sides_[std::size_t(second_side_[pair])];
   }
 
   MPI_Comm comm_;
@@ -177,6 +180,9 @@ class OverlapContact final : public SelfContact<Dim> {
   GlobalIndex touching_ = 0;
   double energy_ = 0;  ///< J, of this rank's cells
   double kappa_;
+  /// Of cells that touch, the derivative of the energy by their volume, with its sign turned, Pa or
+  /// N/m.
+  std::vector<double> swelling_;
   std::vector<LocalIndex> touched_;  ///< pairs that have touched since the last check
   std::vector<char> was_touching_;   ///< whether a pair is among them
   /// [2 * side], sides as in sides_, the largest since the last check: G'' times the face on which

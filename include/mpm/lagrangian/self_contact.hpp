@@ -28,6 +28,7 @@ class SelfContact {
     std::array<LocalIndex, std::size_t(1 << Dim)> nodes;
     IndexVec<Dim> location;
     double stiffness;  ///< S_c, Pa, in the plane N/m; 0 of a rigid cell: of what it meets
+    double volume;     ///< m^3, in the plane m^2, at rest, of what contact sees
     OpenCorners<Dim> open;
     int body;                 ///< whose cell it is
     LocalIndex particle;      ///< and which

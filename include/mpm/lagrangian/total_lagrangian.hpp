@@ -75,7 +75,12 @@ class TotalLagrangian final : public Formulation<Dim> {
   void make_mesh();
   void take_rest();
   void take_rigid_bodies(std::span<const CellNodes> cells);
-  std::optional<CellOutline> outline_of(const CellNodes& nodes) const;
+  /// As contact sees a cell at rest.
+  struct CellForm {
+    std::optional<CellOutline> outline;
+    double volume;  ///< m^3, in the plane m^2
+  };
+  CellForm form_of(const CellNodes& nodes) const;
   ContactCells contact_cells(const Occupants<Dim>& occupants) const;
   void list_node_terms();
   void add_masses();
