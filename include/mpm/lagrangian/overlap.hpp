@@ -36,8 +36,9 @@ struct Sides : Quads {
 };
 
 /// Of the squares of two sides' lengths: ends so near to the other's line are on it. Rounding is a
-/// thousandth of that.
-inline constexpr double on_line = 1e-13;
+/// millionth of that, so where nearly parallel sides cross is known to a millionth of a side: a gap
+/// in the boundary there is a force without its counterpart.
+inline constexpr double on_line = 1e-10;
 
 /// The part [first, last] of an edge, from 0 to 1, that lies in a quadrilateral.
 struct Part {
