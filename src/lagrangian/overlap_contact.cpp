@@ -164,26 +164,26 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
   const double volume = Overlaps::volume(values_of(LocalIndex(cell)));
   const bool bears_less = !rigid && volume > least_squeezed * cells_[cell].volume;
   const double squeezed = bears_less ? volume / cells_[cell].volume : rigid ? 1.0 : least_squeezed;
+  const double whole = 1 / (squeezed * cell_volume_), side = 1 / (squeezed * squeezed * cell_face_);
   parts_.resize(count);
   beside_.resize(count * count);
   for (std::size_t k = 0; k < count; ++k) {
-    const OverlapShare share(touches[k].overlap / (squeezed * cell_volume_));
+    const OverlapShare share(touches[k].overlap * whole);
     parts_[k].share = share.value;
     parts_[k].slope = share.slope;
-    parts_[k].face = touches[k].face;
+    beside_[k * count + k] = 1;
     for (std::size_t j = 0; j < k; ++j)
       beside_[k * count + j] = beside_[j * count + k] =
           are_of_one_wall(touches[j].other, touches[k].other);
   }
-  const auto add_beside = [&](std::size_t k, double Part::*value) {
-    double sum = parts_[k].*value;
-    for (std::size_t j = 0; j < count; ++j)
-      if (j != k && beside_[k * count + j]) sum += parts_[j].*value;
-    return sum;
-  };
   for (std::size_t k = 0; k < count; ++k) {
+    const double* beside = &beside_[k * count];
+    double together = 0, face = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+      together += beside[j] * parts_[j].share;
+      face += beside[j] * touches[j].face;
+    }
     Part& part = parts_[k];
-    const double together = add_beside(k, &Part::share);
     const OverlapPotential potential(together);
     const double of_other = rigid ? stiffness_[std::size_t(touches[k].other)] : 1.0;
     part.own = of_other * potential.part;
@@ -191,19 +191,19 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
     energy_ += stiffness * cell_volume_ * part.share * part.own;
     if (!(together > 0)) continue;
     double* largest = &presses_[2 * std::size_t(touches[k].side)];
-    largest[0] =
-        std::max(largest[0], OverlapPotential::stiffness(together) * add_beside(k, &Part::face) /
-                                 (squeezed * squeezed * cell_face_));
+    largest[0] = std::max(largest[0], OverlapPotential::stiffness(together) * face * side);
     largest[1] = std::max(largest[1], part.share / together);
   }
-  double swelling = 0;
+  const double answer = stiffness / squeezed;
+  double work = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    const double side =
-        stiffness / squeezed * parts_[k].slope * (parts_[k].own + add_beside(k, &Part::change));
-    sides_[std::size_t(touches[k].side)] = side;
-    swelling += side * touches[k].overlap / volume;
+    double slope = parts_[k].own;
+    for (std::size_t j = 0; j < count; ++j) slope += beside_[k * count + j] * parts_[j].change;
+    slope *= answer * parts_[k].slope;
+    sides_[std::size_t(touches[k].side)] = slope;
+    work += slope * touches[k].overlap;
   }
-  swelling_[cell] = bears_less ? swelling : 0;
+  swelling_[cell] = bears_less ? work / volume : 0;
 }
 
 /// Whether cells are so near in the lattice that what a third one presses them with adds up.
@@ -219,8 +219,9 @@ void OverlapContact<Dim>::add_forces(NodeFields<Dim>& fields) const
   const auto push = [&](LocalIndex cell, OverlapSlopes<Dim> slopes, double pressure) {
     if constexpr (Dim == 2)
       if (const CellOutline* outline = outline_of(cell)) slopes.take_nodes(*outline);
+    const auto& nodes = cells_[std::size_t(cell)].nodes;
     for (std::size_t c = 0; c < corners_of_cell; ++c) {
-      double* force = fields.force_of(cells_[std::size_t(cell)].nodes[slopes.corner[c]]);
+      double* force = fields.force_of(nodes[slopes.corner[c]]);
       for (int d = 0; d < Dim; ++d) force[d] += pressure * slopes.by[c][d];
     }
   };

@@ -13,19 +13,6 @@
 
 namespace mpm {
 
-/// In locations, the short way around where an axis is periodic.
-template <int Dim>
-IndexVec<Dim> OverlapContact<Dim>::apart(LocalIndex from, LocalIndex to) const
-{
-  IndexVec<Dim> apart = locations_[std::size_t(to)] - locations_[std::size_t(from)];
-  for (int d = 0; d < Dim; ++d)
-    if (period_[d] > 0) {
-      if (apart[d] > period_[d] / 2) apart[d] -= period_[d];
-      if (apart[d] < -period_[d] / 2) apart[d] += period_[d];
-    }
-  return apart;
-}
-
 /// Bodies that are apart can anywhere. Neighbours with a face in common cannot, nor those around a
 /// node or edge where all cells are; and what is behind the outer layer on both sides does not
 /// before the layers themselves.
@@ -334,11 +321,9 @@ void OverlapContact<Dim>::answer(std::vector<Ghosts::Peer>& peers,
   }
 }
 
-template IndexVec<2> OverlapContact<2>::apart(LocalIndex, LocalIndex) const;
 template Vec<2> OverlapContact<2>::shift_of(int) const;
 template void OverlapContact<2>::find_pairs(const MeshNodes<2>&, double);
 template double OverlapContact<2>::largest_way(const MeshNodes<2>&) const;
-template IndexVec<3> OverlapContact<3>::apart(LocalIndex, LocalIndex) const;
 template Vec<3> OverlapContact<3>::shift_of(int) const;
 template void OverlapContact<3>::find_pairs(const MeshNodes<3>&, double);
 template double OverlapContact<3>::largest_way(const MeshNodes<3>&) const;

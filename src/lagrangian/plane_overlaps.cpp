@@ -171,6 +171,9 @@ void CellOverlaps<2>::find(std::span<const MeetingCells> cells)
       store(overlap.b_x[k], out + (9 + k) * lane_count);
       store(overlap.b_y[k], out + (13 + k) * lane_count);
     }
+    const Lanes x = overlap.a_x[0] + overlap.a_x[1] + overlap.a_x[2] + overlap.a_x[3],
+                y = overlap.a_y[0] + overlap.a_y[1] + overlap.a_y[2] + overlap.a_y[3];
+    store(stdx::sqrt(x * x + y * y), out + 17 * lane_count);
   }
 }
 

@@ -126,7 +126,7 @@ class CellOverlaps<2> {
   std::size_t pair(std::size_t entry) const { return near_[entry].cells.pair; }
   double overlap(std::size_t entry) const { return *values_of(entry); }  ///< m^2
   /// By the way of a cell, m: the length of the face that they share.
-  double face(std::size_t entry) const { return slopes(entry, 0).together().norm(); }
+  double face(std::size_t entry) const { return values_of(entry)[17 * lane_count]; }
   /// `side`: 0, of the first cell, or 1.
   OverlapSlopes<2> slopes(std::size_t entry, int side) const;
   std::size_t bytes() const
@@ -140,8 +140,8 @@ class CellOverlaps<2> {
     MeetingCells cells;
     std::array<int, 2> pieces;
   };
-  /// Of lane_count entries: areas, and their derivatives by 16 coordinates.
-  static constexpr int values_per_group = 17 * lane_count;
+  /// Of lane_count entries: areas, their derivatives by 16 coordinates, and faces.
+  static constexpr int values_per_group = 18 * lane_count;
   const double* values_of(std::size_t entry) const
   {
     return &overlaps_[entry / lane_count * values_per_group + entry % lane_count];

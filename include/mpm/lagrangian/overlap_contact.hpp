@@ -90,7 +90,17 @@ class OverlapContact final : public SelfContact<Dim> {
     const LocalIndex outline = cells_[std::size_t(cell)].outline;
     return outline < 0 ? nullptr : &outlines_[std::size_t(outline)];
   }
-  IndexVec<Dim> apart(LocalIndex from, LocalIndex to) const;
+  /// In locations, the short way around where an axis is periodic.
+  IndexVec<Dim> apart(LocalIndex from, LocalIndex to) const
+  {
+    IndexVec<Dim> apart = locations_[std::size_t(to)] - locations_[std::size_t(from)];
+    for (int d = 0; d < Dim; ++d)
+      if (period_[d] > 0) {
+        if (apart[d] > period_[d] / 2) apart[d] -= period_[d];
+        if (apart[d] < -period_[d] / 2) apart[d] += period_[d];
+      }
+    return apart;
+  }
   bool can_meet(LocalIndex own, LocalIndex other) const;
   bool can_press(const Pair& pair, double way) const;
   bool are_of_one_wall(LocalIndex a, LocalIndex b) const;
@@ -123,10 +133,10 @@ class OverlapContact final : public SelfContact<Dim> {
     LocalIndex other, side;  ///< side: where in sides_
     double overlap, face;    ///< as in overlaps_ and faces_
   };
-  /// Of a touch: what its overlap counts as, its face, m^2 or m, what it stores, and by how much
-  /// its neighbours' answers grow with it.
+  /// Of a touch: what its overlap counts as, how that grows with the share, what it stores, and by
+  /// how much its neighbours' answers grow with it.
   struct Part {
-    double share, slope, face, own, change;
+    double share, slope, own, change;
   };
   bool is_rigid(LocalIndex cell) const { return stiffness_[std::size_t(cell)] == 0; }
   void answer_overlaps(std::size_t cell, std::span<const Touch> touches);
@@ -172,7 +182,7 @@ class OverlapContact final : public SelfContact<Dim> {
   std::vector<double> sides_;
   std::vector<LocalIndex> second_side_;
   std::vector<Part> parts_;     ///< of the touches of one cell, for a moment
-  std::vector<char> beside_;    ///< [touch, touch]: whether they are of one wall
+  std::vector<double> beside_;  ///< [touch, touch]: 1 if they are of one wall
   std::vector<Touch> touches_;  ///< of cell c from first_touch_[c] on
   std::vector<LocalIndex> first_touch_;
   std::vector<double> motion_;         ///< of the cells' corners, with friction
