@@ -13,7 +13,7 @@ set -eu
 build_packages="g++ make cmake pkg-config ca-certificates python3
   petsc-dev libhdf5-openmpi-dev libmetis-dev libeigen3-dev libgtest-dev libgmock-dev
   libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev libpugixml-dev nlohmann-json3-dev
-  libudunits2-dev libmuparser-dev libstb-dev libtiff-dev"
+  libudunits2-dev libmuparser-dev libstb-dev libtiff-dev zlib1g-dev"
 picture_packages="python3-yaml python3-numpy python3-scipy python3-h5py python3-matplotlib python3-paraview
   xvfb xauth libgl1-mesa-dri"
 benchmark_packages="libbenchmark-dev valgrind"
@@ -33,7 +33,7 @@ if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   echo "install_packages.sh: no apt-get here, so nothing is installed. Needed by other means" \
     "(cluster modules, spack, dnf): a C++20 compiler, CMake 3.22, pkg-config, MPI, PETSc 3.15," \
     "HDF5 1.10 built with MPI, METIS, Eigen 3.3, yaml-cpp, CLI11, fmt, spdlog, pugixml," \
-    "nlohmann-json, udunits2, muParser, libtiff, stb and GoogleTest. See docs/building.md." >&2
+    "nlohmann-json, udunits2, muParser, libtiff, zlib, stb and GoogleTest. See docs/building.md." >&2
   exit 1
 fi
 

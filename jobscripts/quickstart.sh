@@ -28,7 +28,7 @@ sh jobscripts/build.sh --target mpm_par
 
 step "Run inputs/wood/$name.yaml on 2 ranks"
 . jobscripts/environment.sh
-mpirun -n 2 build/mpm_par "inputs/wood/$name.yaml"
+mpirun -n 2 build/mpm_par --overwrite "inputs/wood/$name.yaml"
 
 step "Pictures"
 pictures=

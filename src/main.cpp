@@ -30,7 +30,12 @@ void plan_and_run(const scene::CommandLine& command_line, const scene::Scene& sc
   print_once(plan_text(preparation));
   if (!command_line.ranks.empty() && rank_of(MPI_COMM_WORLD) == 0)
     print_once(rank_study_text(preparation, command_line.ranks));
-  if (!command_line.check) run_in_folder(preparation, scene::results_folder(command_line, scene));
+  if (command_line.check) return;
+  std::vector<std::filesystem::path> pictures;
+  if (scene.specimen.micrograph) pictures.push_back(scene.specimen.micrograph->file);
+  run_in_folder(preparation, {scene::results_folder(command_line, scene), command_line.restart,
+                              command_line.checkpoint, command_line.overwrite,
+                              command_line.time_limit, command_line.scene, std::move(pictures)});
 }
 
 void read_and_run(const scene::CommandLine& command_line)
@@ -69,6 +74,8 @@ int run(const std::variant<scene::CommandLine, scene::Answer>& asked)
     return report(ExitStatus::bad_input, error.what());
   } catch (const NumericalError& error) {
     return report(ExitStatus::numerical_failure, error.what());
+  } catch (const Interruption& interruption) {
+    return report(ExitStatus::interrupted, interruption.what());
   } catch (const FileError& error) {
     return report(ExitStatus::file_failure, error.what());
   } catch (const std::exception& error) {

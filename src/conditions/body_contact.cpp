@@ -197,8 +197,8 @@ template <int Dim>
 void BodyContact<Dim>::archive(Archive& archive)
 {
   reaction_.archive(archive);
-  archive.value("friction_work", friction_work_);
-  archive.value("touching", touching_);
+  archive.value("friction_work", friction_work_, Over::sum);
+  archive.value("touching", touching_, Over::sum);
 }
 
 template class BodyContact<2>;

@@ -210,8 +210,8 @@ template <int Dim>
 void RigidWall<Dim>::archive(Archive& archive)
 {
   BoundaryCondition<Dim>::archive(archive);
-  if (pushes()) archive.value("push", push_);
-  if (rubs()) archive.value("friction_work", friction_work_);
+  if (pushes()) archive.value("push", push_, Over::sum);
+  if (rubs()) archive.value("friction_work", friction_work_, Over::sum);
 }
 
 template class RigidWall<2>;

@@ -48,6 +48,11 @@ void MemoryArchive::start_loading()
   loading_ = true;
 }
 
+void MemoryArchive::does_not_regroup()
+{
+  throw std::logic_error("a state in memory is of these ranks");
+}
+
 void MemoryArchive::enter(std::string_view name)
 {
   sections_.emplace_back(name);
@@ -118,12 +123,12 @@ void MemoryArchive::whole(std::string_view name, T& value)
     save(name, value);
 }
 
-void MemoryArchive::values(std::string_view name, std::span<double> values)
+void MemoryArchive::values(std::string_view name, std::span<double> values, Over)
 {
   fixed(name, values);
 }
 
-void MemoryArchive::values(std::string_view name, std::span<std::int64_t> values)
+void MemoryArchive::values(std::string_view name, std::span<std::int64_t> values, Over)
 {
   fixed(name, values);
 }
@@ -141,6 +146,17 @@ void MemoryArchive::list(std::string_view name, std::vector<std::int64_t>& list)
 void MemoryArchive::text(std::string_view name, std::string& text)
 {
   whole(name, text);
+}
+
+void MemoryArchive::visit(
+    const std::function<void(const std::string& name, const Value& value)>& visit) const
+{
+  for (const auto& [name, entry] : entries_) visit(name, entry.value);
+}
+
+void MemoryArchive::put(std::string name, Value value)
+{
+  entries_[std::move(name)].value = std::move(value);
 }
 
 std::vector<std::string> MemoryArchive::unread() const

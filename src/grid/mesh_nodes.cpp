@@ -1,3 +1,4 @@
+#include <mpm/core/error.hpp>
 #include <mpm/grid/mesh_nodes.hpp>
 
 #include <algorithm>
@@ -79,12 +80,78 @@ double MeshNodes<Dim>::move(NodeFields<Dim>& fields, double dt)
   return fastest;
 }
 
+/// Of a node of that node's kind at a corner.
 template <int Dim>
-void MeshNodes<Dim>::archive(Archive& archive)
+GlobalIndex MeshNodes<Dim>::key(LocalIndex node, const IndexVec<Dim>& corner) const
 {
-  archive.values("places", places_);
-  archive.value("way", way_);
-  if (archive.is_loading()) listing_ = Nodes<Dim>::new_listing();
+  constexpr int bits = 56 / Dim;  // which leaves seven for the kind
+  GlobalIndex key = kinds_.empty() ? 0 : kinds_[std::size_t(node)];
+  for (int d = Dim - 1; d >= 0; --d) key = key << bits | GlobalIndex(corner[d]);
+  return key;
+}
+
+/// Of each node, where it stands among all ranks'; `saved`: the corner that it has there, as a node
+/// where an axis begins again may have been another image.
+template <int Dim>
+std::vector<std::int64_t> MeshNodes<Dim>::find_saved(Archive& archive,
+                                                     std::vector<IndexVec<Dim>>& saved) const
+{
+  saved = corners_;
+  std::vector<std::int64_t> keys;
+  for (LocalIndex node = 0; node < size(); ++node) keys.push_back(key(node, corner(node)));
+  std::vector<std::int64_t> rows = archive.places_of("key", keys);
+  for (int images = 1; images < 1 << Dim; ++images) {
+    std::vector<LocalIndex> astray;
+    std::vector<IndexVec<Dim>> at;
+    std::vector<std::int64_t> image_keys;
+    for (LocalIndex node = 0; node < size(); ++node) {
+      if (rows[std::size_t(node)] >= 0) continue;
+      IndexVec<Dim> image = corner(node);
+      for (int d = 0; d < Dim; ++d)
+        if (images >> d & 1 && period_[d] > 0 && image[d] % period_[d] == 0)
+          image[d] = period_[d] - image[d];
+      astray.push_back(node);
+      at.push_back(image);
+      image_keys.push_back(key(node, image));
+    }
+    if (astray.empty()) return rows;
+    const std::vector<std::int64_t> found = archive.places_of("key", image_keys);
+    for (std::size_t k = 0; k < astray.size(); ++k) {
+      rows[std::size_t(astray[k])] = found[k];
+      saved[std::size_t(astray[k])] = at[k];
+    }
+  }
+  if (std::ranges::find(rows, -1) != rows.end())
+    throw InputError(
+        "saved state: nodes of this mesh are not there. Go on with the scene that it is of.");
+  return rows;
+}
+
+template <int Dim>
+std::vector<std::int64_t> MeshNodes<Dim>::archive(Archive& archive)
+{
+  std::vector<IndexVec<Dim>> saved;
+  std::vector<std::int64_t> rows, keys;
+  if (archive.regroups()) {
+    rows = find_saved(archive, saved);
+  } else {
+    for (LocalIndex node = 0; node < size(); ++node) keys.push_back(key(node, corner(node)));
+    archive.values("key", keys);
+  }
+  std::vector<double> places;
+  for (LocalIndex node = 0; node < size(); ++node)
+    for (int d = 0; d < Dim; ++d) places.push_back(place(node, d));
+  archive.rows("places", rows, places);
+  archive.value("way", way_, Over::largest);
+  if (!archive.is_loading()) return rows;
+  for (LocalIndex node = 0; node < size(); ++node)
+    for (int d = 0; d < Dim; ++d) {
+      double& here = place(node, d);
+      here = places[std::size_t(node * Dim + d)];
+      if (!saved.empty()) here += (corner(node) - saved[std::size_t(node)])[d] * location_size_[d];
+    }
+  listing_ = Nodes<Dim>::new_listing();
+  return rows;
 }
 
 template <int Dim>

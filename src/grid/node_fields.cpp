@@ -181,14 +181,16 @@ void NodeFields<Dim>::gradient_from_updated(Runs runs)
 }
 
 template <int Dim>
-void NodeFields<Dim>::archive(Archive& archive)
+void NodeFields<Dim>::archive(Archive& archive, std::span<const std::int64_t> rows)
 {
-  archive.values("mass", mass);
-  archive.values("momentum_force", momentum_force);
-  archive.values("updated", updated);
-  archive.values("remapped_momentum", remapped_momentum);
-  archive.values("load_force", load_force);
-  archive.values("gradient_velocity", gradient_velocity);
+  // Without the tail's room.
+  const std::size_t masses = mass.empty() ? 0 : updated.size() / record_width;
+  archive.rows("mass", rows, std::span(mass).first(masses));
+  archive.rows("momentum_force", rows, momentum_force);
+  archive.rows("updated", rows, updated);
+  archive.rows("remapped_momentum", rows, remapped_momentum);
+  archive.rows("load_force", rows, load_force);
+  archive.rows("gradient_velocity", rows, gradient_velocity);
 }
 
 template <int Dim>

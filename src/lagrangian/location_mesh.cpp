@@ -260,7 +260,10 @@ LocationMesh<Dim> make_location_mesh(std::span<const IndexVec<Dim>> cells, int r
     for_each_corner(cell, [&](int, const IndexVec<Dim>& at, int body) { number.add(at, body); });
   const std::vector<NodeKey<Dim>>& nodes = number.put_in_order();
   mesh.nodes.reserve(nodes.size());
-  for (const NodeKey<Dim>& node : nodes) mesh.nodes.push_back(corner_of<Dim>(node));
+  for (const NodeKey<Dim>& node : nodes) {
+    mesh.nodes.push_back(corner_of<Dim>(node));
+    mesh.first_bodies.push_back(char(node[Dim]));
+  }
   mesh.cells.reserve(cells.size());
   for (const IndexVec<Dim>& cell : cells) {
     auto& of_cell = mesh.cells.emplace_back();

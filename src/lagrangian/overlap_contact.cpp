@@ -281,6 +281,12 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
     if (harder > 1)
       least_stretches[std::size_t(cells_[c].body)][std::size_t(cells_[c].particle)] /= harder;
   }
+  forget_stiffness();
+}
+
+template <int Dim>
+void OverlapContact<Dim>::forget_stiffness()
+{
   for (const LocalIndex pair : touched_) {
     const auto k = std::size_t(pair), other = std::size_t(second_side_[k]);
     std::fill_n(&presses_[2 * k], 2, 0.0);

@@ -210,7 +210,9 @@ void TotalLagrangian<Dim>::scale_masses()
     const double more = mass - before[std::size_t(node)];
     // Mass that comes moves as its cells do, and mass that goes takes its velocity along: neither
     // heats, and neither slows what moves as a whole.
-    const double share = more > 0 ? more / mass : 0.0;
+    // Where none was added there is none that comes, whatever rounding says of a mass that was
+    // saved.
+    const double share = added > 0 && more > 0 ? more / mass : 0.0;
     double* u = fields_->updated_of(node);
     for (int d = 0; d < Dim; ++d) {
       const double was = u[d];
@@ -232,6 +234,7 @@ void TotalLagrangian<Dim>::look_for_pairs(double way)
   contact_->find_pairs(*nodes_, 2 * std::max(least_way * setup_.location_size.minCoeff(),
                                              checks_ahead * to_next_check));
   contact_->measure(*nodes_);
+  contact_->forget_stiffness();
 }
 
 template <int Dim>
@@ -255,8 +258,9 @@ void TotalLagrangian<Dim>::visit_work(
 template <int Dim>
 Counters TotalLagrangian<Dim>::counters() const
 {
-  Counters counters{0, halo_->traffic().messages, halo_->traffic().bytes,
-                    halo_->traffic().waiting_seconds};
+  Counters counters = earlier_;
+  counters +=
+      {0, halo_->traffic().messages, halo_->traffic().bytes, halo_->traffic().waiting_seconds};
   if (contact_)
     counters += {0, contact_->messages(), contact_->bytes_sent(), contact_->waiting_seconds()};
   return counters;
@@ -278,19 +282,25 @@ template <int Dim>
 void TotalLagrangian<Dim>::archive(Archive& archive)
 {
   archive.value("time", time_);
+  archive.value("kicked_time", kicked_time_);
   archive.value("steps", steps_);
   archive.value("checked", checked_);
   archive.value("last_step", last_step_);
-  archive.value("largest_speed", largest_speed_);
-  archive.values("friction", friction_);
-  archive.value("friction_work", friction_work_);
+  archive.value("largest_speed", largest_speed_, Over::largest);
+  archive.value("friction_work", friction_work_, Over::sum);
   {
     const Archive::Section section(archive, "agreed");
     agreed_.archive(archive);
   }
+  {
+    const Archive::Section section(archive, "counters");
+    Counters all = counters();
+    all.archive(archive);
+    if (archive.is_loading()) earlier_ += all -= counters();
+  }
   for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
     const Archive::Section section(archive, "body" + std::to_string(b));
-    setup_.bodies[b].particles.archive(archive);
+    archive_cells(archive, b);
   }
   {
     const Archive::Section section(archive, "given");
@@ -298,17 +308,39 @@ void TotalLagrangian<Dim>::archive(Archive& archive)
   }
   {
     const Archive::Section section(archive, "nodes");
-    nodes_->archive(archive);
-    fields_->archive(archive);
+    const std::vector<std::int64_t> rows = nodes_->archive(archive);
+    fields_->archive(archive, rows);
+    archive.rows("friction", rows, friction_);
   }
   archive_failure(archive);
+  // As far as nodes go until the next check; a mesh at rest needs less.
+  double skin = contact_ ? contact_->skin() : 0;
+  archive.value("skin", skin);
   setup_.slots.archive(archive);
   if (!archive.is_loading()) return;
   loss_.reset();
   particles_are_present_ = false;
   if (!contact_) return;
-  contact_->find_pairs(*nodes_, contact_->skin());
+  contact_->find_pairs(*nodes_, skin);
   contact_->measure(*nodes_);
+  contact_->forget_stiffness();
+}
+
+/// Regrouped, the cells that are this rank's without those that have failed.
+template <int Dim>
+void TotalLagrangian<Dim>::archive_cells(Archive& archive, std::size_t number)
+{
+  ParticleStore& particles = setup_.bodies[number].particles;
+  if (!archive.regroups()) return particles.archive(archive);
+  std::vector<std::int64_t> rows = archive.places_of("id", particles.ids());
+  std::vector<LocalIndex> failed;
+  for (std::size_t cell = 0; cell < rows.size(); ++cell)
+    if (rows[cell] < 0) failed.push_back(LocalIndex(cell));
+  if (!failed.empty()) {
+    cells_[number].erase(setup_.bodies[number], failed, least_stretches_[number]);
+    rows = archive.places_of("id", particles.ids());
+  }
+  particles.take(archive, rows);
 }
 
 template <int Dim>

@@ -95,6 +95,7 @@ void TotalLagrangian<Dim>::make_mesh()
   LocationMesh<Dim> mesh = make_location_mesh<Dim>(cells, me, occupant_of, setup_.pairs, period);
   nodes_.emplace(std::move(mesh.nodes), std::move(mesh.owned), setup_.location_size, period,
                  setup_.offsets);
+  if (setup_.pairs.any_apart()) nodes_->set_kinds(std::move(mesh.first_bodies));
   run_ = nodes_->run();
   fields_.emplace(nodes_->size(), mesh_needs<Dim>(!setup_.slots.loads.empty()), 0.0);
   halo_.emplace(comm, std::move(mesh.shared));

@@ -9,60 +9,14 @@
 #include <system_error>
 #include <type_traits>
 
+#include "hdf5_handles.hpp"
 #include <fmt/core.h>
-#include <hdf5.h>
 
 namespace mpm::output {
 
 namespace {
 
-static_assert(std::is_same_v<hid_t, std::int64_t>);
-
 constexpr hsize_t chunk_rows = 65536;  ///< 0.5 MB a column: large enough for gzip to be worth it
-
-/// An HDF5 identifier and the function that closes it.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle()
-  {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// What HDF5 says about its last failure: the innermost cause comes first.
-std::string last_hdf5_message()
-{
-  std::string text;
-  H5Ewalk2(
-      H5E_DEFAULT, H5E_WALK_UPWARD,
-      [](unsigned depth, const H5E_error2_t* entry, void* out) -> herr_t {
-        auto& words = *static_cast<std::string*>(out);
-        if (depth < 2 && entry->desc != nullptr) {
-          if (!words.empty()) words += ": ";
-          words += entry->desc;
-        }
-        return 0;
-      },
-      &text);
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.empty() ? "no reason given" : text;
-}
-
-template <class T>
-hid_t native_type()
-{
-  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
-  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
-  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
-}
 
 /// The same bytes whatever machine wrote them.
 template <class T>
@@ -71,6 +25,7 @@ hid_t stored_type()
   if constexpr (std::is_same_v<T, double>) return H5T_IEEE_F64LE;
   if constexpr (std::is_same_v<T, std::int64_t>) return H5T_STD_I64LE;
   if constexpr (std::is_same_v<T, std::int32_t>) return H5T_STD_I32LE;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_STD_U8LE;
 }
 
 bool attach(hid_t object, const std::string& name, hid_t type, const void* value)
@@ -163,9 +118,11 @@ void Hdf5File::write(const std::string& dataset, const std::string& unit, int co
     H5Pset_shuffle(creation);
     H5Pset_deflate(creation, 1);
   }
-  const Handle target(H5Dcreate2(id_, dataset.c_str(), stored_type<T>(), file_space, H5P_DEFAULT,
-                                 creation, H5P_DEFAULT),
-                      H5Dclose);
+  const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(link, 1);
+  const Handle target(
+      H5Dcreate2(id_, dataset.c_str(), stored_type<T>(), file_space, link, creation, H5P_DEFAULT),
+      H5Dclose);
   agree(target < 0 ? "create dataset " + dataset : "");
 
   if (all > 0) {  // HDF5 1.10 fails to write no rows to a dataset of none
@@ -192,6 +149,12 @@ void Hdf5File::write_rows(const std::string& dataset, const std::string& unit, i
 
 void Hdf5File::write_rows(const std::string& dataset, const std::string& unit, int components,
                           std::span<const std::int32_t> values)
+{
+  write(dataset, unit, components, values);
+}
+
+void Hdf5File::write_rows(const std::string& dataset, const std::string& unit, int components,
+                          std::span<const std::uint8_t> values)
 {
   write(dataset, unit, components, values);
 }

@@ -119,8 +119,8 @@ void make_directory(const std::filesystem::path& directory)
   std::filesystem::create_directories(directory, error);
   if (error)
     throw FileError(
-        fmt::format("{}: cannot create the directory ({}). Choose another output "
-                    "directory or remove what stands there.",
+        fmt::format("{}: cannot create the directory ({}). Choose another with --output, or remove "
+                    "what stands there.",
                     directory.string(), error.message()));
 }
 

@@ -29,6 +29,28 @@ std::string file_of(int number)
   return fmt::format("snapshots/{:06}.h5", number);
 }
 
+void archive_grid(Archive& archive, XdmfGrid& grid)
+{
+  archive.text("file", grid.file);
+  archive.value("time", grid.time);
+  archive.value("strain", grid.strain);
+  archive.value("particles", grid.particles);
+  int connectivity = int(grid.connectivity), arrays = int(grid.arrays.size());
+  archive.value("connectivity", connectivity);
+  grid.connectivity = NumberType(connectivity);
+  archive.value("arrays", arrays);
+  grid.arrays.resize(std::size_t(arrays));
+  for (XdmfArray& array : grid.arrays) {
+    const Archive::Section section(archive, "array" + std::to_string(&array - grid.arrays.data()));
+    archive.text("name", array.name);
+    archive.text("unit", array.unit);
+    archive.value("components", array.components);
+    int type = int(array.type);
+    archive.value("type", type);
+    array.type = NumberType(type);
+  }
+}
+
 /// At most: integers may be shorter, compressed arrays are.
 std::int64_t expected_bytes(const Snapshot& snapshot, std::int64_t particles)
 {
@@ -101,6 +123,26 @@ void SnapshotSeries::write(const Snapshot& snapshot)
   if (entry.particles == 0) return;  // ParaView divides by the number of rows and ends
   entries_.push_back(std::move(entry));
   on_rank_zero(comm_, [this] { write_xdmf(directory_ / (name_ + ".xdmf"), name_, entries_); });
+}
+
+void SnapshotSeries::archive(Archive& archive)
+{
+  const Archive::Section section(archive, "series");
+  archive.value("written", written_);
+  int count = int(entries_.size());
+  archive.value("count", count);
+  entries_.resize(std::size_t(count));
+  for (int k = 0; k < count; ++k) {
+    const Archive::Section of_entry(archive, fmt::format("{:06}", k));
+    archive_grid(archive, entries_[std::size_t(k)]);
+  }
+  if (!archive.is_loading()) return;
+  on_rank_zero(comm_, [this] {
+    std::erase_if(entries_, [&](const XdmfGrid& entry) {
+      return !std::filesystem::exists(directory_ / entry.file);
+    });
+    if (!entries_.empty()) write_xdmf(directory_ / (name_ + ".xdmf"), name_, entries_);
+  });
 }
 
 void SnapshotSeries::cut(int written)

@@ -43,6 +43,50 @@ Ownership<Dim>::Ownership(const GridGeometry<Dim>& geometry, LocalIndex edge,
   }
 }
 
+/// Ranks and edge; then of cuts the number and the cuts of each axis, of blocks the ranks.
+template <int Dim>
+std::vector<std::int64_t> Ownership<Dim>::packed() const
+{
+  std::vector<std::int64_t> packed{ranks(), edge_};
+  if (!by_cuts()) {
+    packed.insert(packed.end(), rank_of_block_.begin(), rank_of_block_.end());
+    return packed;
+  }
+  for (const std::vector<LocalIndex>& cuts : cuts_) {
+    packed.push_back(std::int64_t(cuts.size()));
+    packed.insert(packed.end(), cuts.begin(), cuts.end());
+  }
+  return packed;
+}
+
+template <int Dim>
+Ownership<Dim> Ownership<Dim>::unpacked(const GridGeometry<Dim>& geometry,
+                                        std::span<const std::int64_t> packed)
+{
+  const auto refuse = [] { throw InputError("saved state: its borders are not of this grid."); };
+  auto at = packed.begin();
+  const auto next = [&] {
+    if (at == packed.end()) refuse();
+    return *at++;
+  };
+  const auto ranks = int(next());
+  const auto edge = LocalIndex(next());
+  if (edge > 0) {
+    const IndexVec<Dim> blocks = (geometry.nodes.array() + edge - 1) / edge;
+    if (packed.end() - at != blocks.prod()) refuse();
+    return {geometry, edge, std::vector<int>(at, packed.end()), ranks};
+  }
+  Cuts cuts;
+  for (int d = 0; d < Dim; ++d) {
+    const std::int64_t count = next();
+    if (count < 2 || packed.end() - at < count) refuse();
+    cuts[std::size_t(d)].assign(at, at + count);
+    at += count;
+    if (cuts[std::size_t(d)].back() != geometry.nodes[d]) refuse();
+  }
+  return {geometry, std::move(cuts)};
+}
+
 template <int Dim>
 IndexVec<Dim> Ownership<Dim>::ranks_per_axis() const
 {

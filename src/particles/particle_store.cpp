@@ -59,7 +59,8 @@ void ColumnGroup::permute(std::span<const LocalIndex> order, std::vector<double>
   }
 }
 
-void ColumnGroup::archive(Archive& archive, LocalIndex particles)
+void ColumnGroup::archive(Archive& archive, LocalIndex particles,
+                          std::span<const std::int64_t> rows)
 {
   if (archive.is_loading()) resize(particles);
   int first = 0;
@@ -70,7 +71,7 @@ void ColumnGroup::archive(Archive& archive, LocalIndex particles)
     if (!archive.is_loading())
       for (LocalIndex p = 0; p < particles; ++p)
         for (int c = 0; c < column.components; ++c) values[next++] = (*this)(first + c, p);
-    archive.values(column.name, values);
+    archive.rows(column.name, rows, values);
     if (archive.is_loading())
       for (LocalIndex p = 0; p < particles; ++p)
         for (int c = 0; c < column.components; ++c) (*this)(first + c, p) = values[next++];
@@ -155,13 +156,25 @@ void ParticleStore::permute(std::span<const LocalIndex> order)
 void ParticleStore::archive(Archive& archive)
 {
   archive.list("id", ids_);
+  archive_columns(archive, {});
+}
+
+void ParticleStore::take(Archive& archive, std::span<const std::int64_t> rows)
+{
+  ids_.resize(rows.size());
+  archive.rows("id", rows, ids_);
+  archive_columns(archive, rows);
+}
+
+void ParticleStore::archive_columns(Archive& archive, std::span<const std::int64_t> rows)
+{
   {
     const Archive::Section section(archive, "motion");
-    motion_.archive(archive, size());
+    motion_.archive(archive, size(), rows);
   }
   {
     const Archive::Section section(archive, "state");
-    state_.archive(archive, size());
+    state_.archive(archive, size(), rows);
   }
   if (archive.is_loading()) seal();
 }

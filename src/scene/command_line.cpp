@@ -1,5 +1,6 @@
 #include <mpm/core/error.hpp>
 #include <mpm/core/nearest_name.hpp>
+#include <mpm/core/units.hpp>
 #include <mpm/scene/command_line.hpp>
 #include <mpm/scene/reader.hpp>
 
@@ -24,6 +25,7 @@ bool starts_option(const std::string& word)
 struct Options {
   CommandLine command_line;
   bool reference = false;
+  std::string time_limit;
   CLI::App app{"Material point method: crushes a specimen read from a micrograph."};
 
   explicit Options(const std::string& version)
@@ -41,6 +43,14 @@ struct Options {
         ->allow_extra_args(false);
     app.add_option("-o,--output", command_line.output, "Folder of results (results/NAME)")
         ->type_name("DIR");
+    app.add_flag("--restart", command_line.restart,
+                 "Go on from the newest checkpoint in the folder of results; from FILE with "
+                 "--restart FILE.h5");
+    app.add_flag("--overwrite", command_line.overwrite,
+                 "Start anew in a folder that holds the results of a run");
+    app.add_option("--time-limit", time_limit,
+                   "End with a checkpoint and status 75 after so long, such as \"11.5 h\"")
+        ->type_name("DURATION");
     app.add_option("--set", command_line.overrides,
                    "Change a key of the scene for this run; may be repeated")
         ->type_name("PATH=VALUE")
@@ -59,10 +69,10 @@ struct Options {
 
 const std::vector<std::string> short_options{"-h", "-o"};
 
-/// Our words alone; PETSc's options and their values go to `petsc`.
+/// Our words alone; PETSc's options and their values go to `given`, and so does the file behind
+/// --restart, as a scene may stand there, too.
 std::vector<std::string> without_petsc(const std::vector<std::string>& arguments,
-                                       const std::vector<std::string>& names,
-                                       std::vector<std::string>& petsc)
+                                       const std::vector<std::string>& names, CommandLine& given)
 {
   std::vector<std::string> ours;
   bool scene_seen = false;
@@ -76,7 +86,10 @@ std::vector<std::string> without_petsc(const std::vector<std::string>& arguments
       if (std::ranges::find(names, name) == names.end())
         throw InputError(fmt::format("unknown option '{}' ({})", name, suggestion(name, names)));
       ours.push_back(word);
-      if (word == "--set" || word == "--output" || word == "--ranks") take_next(ours);
+      if (word == "--set" || word == "--output" || word == "--ranks" || word == "--time-limit")
+        take_next(ours);
+      if (word == "--restart" && i + 1 < arguments.size() && arguments[i + 1].ends_with(".h5"))
+        given.checkpoint = arguments[++i];
     } else if (std::ranges::find(short_options, word) != short_options.end()) {
       ours.push_back(word);
       if (word == "-o") take_next(ours);
@@ -92,11 +105,28 @@ std::vector<std::string> without_petsc(const std::vector<std::string>& arguments
       throw InputError(fmt::format(
           "unknown option '{}' (before the scene). Put options for PETSc behind the scene.", word));
     } else {
-      petsc.push_back(word);
-      if (i + 1 < arguments.size() && !starts_option(arguments[i + 1])) take_next(petsc);
+      given.petsc.push_back(word);
+      if (i + 1 < arguments.size() && !starts_option(arguments[i + 1])) take_next(given.petsc);
     }
   }
   return ours;
+}
+
+/// What the words on restart and time mean.
+void take_continuation(Options& options)
+{
+  CommandLine& given = options.command_line;
+  if (given.restart && given.overwrite)
+    throw InputError("--restart goes on with what --overwrite would take away. Give one of them.");
+  if (options.time_limit.empty()) return;
+  try {
+    given.time_limit = to_si(options.time_limit, Quantity::time);
+  } catch (const UnitError& error) {
+    throw InputError(fmt::format("--time-limit is {} ({}).", options.time_limit, error.what()));
+  }
+  if (!(*given.time_limit > 0))
+    throw InputError(fmt::format("--time-limit is {} (must be above 0). Write e.g. \"11.5 h\".",
+                                 options.time_limit));
 }
 
 }  // namespace
@@ -105,8 +135,7 @@ std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::stri
                                                      const std::string& version)
 {
   Options options(version);
-  std::vector<std::string> ours =
-      without_petsc(arguments, options.names(), options.command_line.petsc);
+  std::vector<std::string> ours = without_petsc(arguments, options.names(), options.command_line);
   std::ranges::reverse(ours);  // the order the library takes words from the back in
   try {
     options.app.parse(ours);
@@ -122,6 +151,7 @@ std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::stri
     write_input_reference(page);
     return Answer{page.str()};
   }
+  take_continuation(options);
   if (options.command_line.scene.empty())
     throw InputError("no scene named. Write mpm_par scene.yaml, or see mpm_par --help.");
   if (!options.command_line.ranks.empty() && !options.command_line.check)

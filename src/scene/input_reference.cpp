@@ -91,6 +91,7 @@ void write_input_reference(std::ostream& out)
   write_words<LoadRow>(out, "kind");
   write_sections<ExactSolution, OutputKeys>(out);
   write_section<SnapshotKeys>(out, snapshots_section);
+  write_sections<Checkpoints>(out);
 }
 
 }  // namespace mpm::scene

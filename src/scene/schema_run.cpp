@@ -201,6 +201,26 @@ const std::vector<Parameter<OutputKeys>>& parameters<OutputKeys>()
                 "when to write all particles"),
       member<O>("fields", &O::fields, {}, "of each particle, beside its position"),
       member<O>("compress", &O::compress, {}, "half the size, three to four times the time"),
+      member<O>("checkpoints", &O::checkpoints, {.default_text = "none"},
+                "when to leave the state behind, for --restart"),
+  };
+  return rows;
+}
+
+template <>
+const std::vector<Parameter<Checkpoints>>& parameters<Checkpoints>()
+{
+  using C = Checkpoints;
+  static const std::vector<Parameter<C>> rows{
+      member<C>("steps", &C::steps, {.bound = at_least(20), .default_text = "none"},
+                "every so many steps, and no more often than every 20"),
+      member<C>("strain", &C::strain,
+                {.quantity = Quantity::fraction, .bound = above(0), .default_text = "none"},
+                "with every so much more strain, under a piston"),
+      member<C>("wall_time", &C::wall_time,
+                {.quantity = Quantity::time, .bound = above(0), .default_text = "none"},
+                "every so long by the clock"),
+      member<C>("keep", &C::keep, {.bound = at_least(1)}, "the last so many"),
   };
   return rows;
 }

@@ -119,15 +119,44 @@ void ExactSolution<Dim>::line(const typename Observer<Dim>::State& state, const 
   }
   sum_over_ranks(preparation_.comm, sums);
   largest_over_ranks(preparation_.comm, largest);
-  std::vector<double> row{line.time};
   for (std::size_t k = 0; k < comparisons_.size(); ++k) {
     Comparison& c = comparisons_[k];
     c.error.push_back(std::sqrt(sums[2 * k] / sums.back()));
     c.largest_error.push_back(std::sqrt(largest[k]));
     c.size.push_back(std::sqrt(sums[2 * k + 1] / sums.back()));
-    row.insert(row.end(), {c.error.back(), c.largest_error.back(), c.size.back()});
   }
-  on_rank_zero(preparation_.comm, [&] { file_->append(row); });
+  on_rank_zero(preparation_.comm,
+               [&] { write_row(comparisons_.front().error.size() - 1, line.time); });
+}
+
+/// By rank 0.
+template <int Dim>
+void ExactSolution<Dim>::write_row(std::size_t line, double time)
+{
+  std::vector<double> row{time};
+  for (const Comparison& c : comparisons_)
+    row.insert(row.end(), {c.error[line], c.largest_error[line], c.size[line]});
+  file_->append(row);
+}
+
+template <int Dim>
+void ExactSolution<Dim>::archive(Archive& archive)
+{
+  for (std::size_t k = 0; k < comparisons_.size(); ++k) {
+    const Archive::Section section(archive, "comparison" + std::to_string(k));
+    archive.list("error", comparisons_[k].error);
+    archive.list("largest_error", comparisons_[k].largest_error);
+    archive.list("size", comparisons_[k].size);
+  }
+}
+
+template <int Dim>
+void ExactSolution<Dim>::resumed(const std::vector<HistoryLine>& lines)
+{
+  if (comparisons_.empty()) return;
+  on_rank_zero(preparation_.comm, [&] {
+    for (std::size_t k = 0; k < lines.size(); ++k) write_row(k, lines[k].time);
+  });
 }
 
 template <int Dim>

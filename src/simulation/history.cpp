@@ -246,8 +246,8 @@ void History<Dim>::archive(Archive& archive)
   archive.value("piston_impulse", piston_impulse_);
   archive.value("edge_impulse", edge_impulse_);
   archive.value("last_kicked_time", last_kicked_time_);
-  archive.value("load_cell_mass_stress", load_cell_.mass_stress);
-  archive.value("load_cell_mass", load_cell_.mass);
+  archive.value("load_cell_mass_stress", load_cell_.mass_stress, Over::sum);
+  archive.value("load_cell_mass", load_cell_.mass, Over::sum);
   archive.value("deepest_behind_piston", deepest_behind_piston_);
   int line_is_due = work_ahead_before_.has_value();
   archive.value("line_is_due", line_is_due);

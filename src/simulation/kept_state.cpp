@@ -3,39 +3,51 @@
 namespace mpm {
 
 template <int Dim>
+void archive_run(Archive& archive, Formulation<Dim>& formulation, LoadBalance<Dim>& balance,
+                 History<Dim>& history)
+{
+  const Ownership<Dim>& ownership = formulation.decomposition().ownership();
+  std::vector<std::int64_t> borders;
+  if (!archive.is_loading()) borders = ownership.packed();
+  archive.list("borders", borders);
+  if (archive.is_loading()) {
+    // Other ranks have borders of their own.
+    const Ownership<Dim> next =
+        archive.regroups()
+            ? ownership
+            : Ownership<Dim>::unpacked(formulation.decomposition().geometry(), borders);
+    formulation.begin_loading(next);
+  }
+  {
+    const Archive::Section section(archive, "formulation");
+    formulation.archive(archive);
+  }
+  {
+    const Archive::Section section(archive, "balance");
+    balance.archive(archive);
+  }
+  const Archive::Section section(archive, "history");
+  history.archive(archive);
+}
+
+template <int Dim>
 void KeptState<Dim>::save(Formulation<Dim>& formulation, LoadBalance<Dim>& balance,
                           History<Dim>& history)
 {
   archive_.start_saving();
-  archive(formulation, balance, history);
-  ownership_.emplace(formulation.decomposition().ownership());
+  archive_run(archive_, formulation, balance, history);
 }
 
 template <int Dim>
 void KeptState<Dim>::load(Formulation<Dim>& formulation, LoadBalance<Dim>& balance,
                           History<Dim>& history)
 {
-  formulation.begin_loading(ownership_.value());
   archive_.start_loading();
-  archive(formulation, balance, history);
+  archive_run(archive_, formulation, balance, history);
 }
 
-template <int Dim>
-void KeptState<Dim>::archive(Formulation<Dim>& formulation, LoadBalance<Dim>& balance,
-                             History<Dim>& history)
-{
-  {
-    const Archive::Section section(archive_, "formulation");
-    formulation.archive(archive_);
-  }
-  {
-    const Archive::Section section(archive_, "balance");
-    balance.archive(archive_);
-  }
-  const Archive::Section section(archive_, "history");
-  history.archive(archive_);
-}
-
+template void archive_run(Archive&, Formulation<2>&, LoadBalance<2>&, History<2>&);
+template void archive_run(Archive&, Formulation<3>&, LoadBalance<3>&, History<3>&);
 template class KeptState<2>;
 template class KeptState<3>;
 

@@ -1,5 +1,7 @@
 #include <mpm/core/error.hpp>
+#include <mpm/core/interruption.hpp>
 #include <mpm/parallel/session.hpp>
+#include <mpm/simulation/checkpoints.hpp>
 #include <mpm/simulation/failure_cause.hpp>
 #include <mpm/simulation/kept_state.hpp>
 #include <mpm/simulation/method.hpp>
@@ -30,8 +32,9 @@ class Run {
  public:
   using State = typename Observer<Dim>::State;
 
-  Run(const Preparation<Dim>& preparation, std::span<Observer<Dim>* const> observers)
-      : Run(preparation, observers,
+  Run(const Preparation<Dim>& preparation, std::span<Observer<Dim>* const> observers,
+      Continuation continuation)
+      : Run(preparation, observers, std::move(continuation),
             Decomposition<Dim>(preparation.comm, preparation.partition.ownership))
   {
   }
@@ -39,17 +42,20 @@ class Run {
   RunResult run()
   {
     tell([&](Observer<Dim>& observer, const State&) { observer.start(history_.kind()); });
-    look();
-    record(time_step_.first());
-    keep();
+    if (continuation_.state)
+      resume();
+    else
+      begin();
+    schedule_.start(stepper_->steps(), state().strain, seconds_since(start_));
     const auto loop_start = Clock::now();
-    const double observed_before = result_.observer_seconds;
+    const double stepped_before = result_.step_seconds, observed_before = result_.observer_seconds;
     while (!finished_at(stepper_->time(), stepper_->steps())) try {
         advance();
       } catch (const NumericalError& error) {
         go_back(error);
       }
-    result_.step_seconds = seconds_since(loop_start) - (result_.observer_seconds - observed_before);
+    result_.step_seconds =
+        stepped_before + seconds_since(loop_start) - (result_.observer_seconds - observed_before);
     for (Observer<Dim>* observer : observers_) observer->finish();
     fill_result();
     return std::move(result_);
@@ -57,13 +63,16 @@ class Run {
 
  private:
   Run(const Preparation<Dim>& preparation, std::span<Observer<Dim>* const> observers,
-      const Decomposition<Dim>& decomposition)
+      Continuation continuation, const Decomposition<Dim>& decomposition)
       : start_(Clock::now()),
         preparation_(preparation),
         comm_(preparation.comm),
         scene_(preparation.scene),
         layout_(preparation.layout),
         observers_(observers),
+        continuation_(std::move(continuation)),
+        checkpoints_(continuation_.results),
+        schedule_(scene_.output.checkpoints),
         model_(make_model(scene_, preparation.specimen, layout_, decomposition)),
         time_step_(time_step_of(layout_)),
         stepper_(make_formulation(scene_, layout_, decomposition, std::move(model_))),
@@ -104,7 +113,84 @@ class Run {
       }
       look();
       if (stepper_->steps() % KeptState<Dim>::steps_between == 0 && history_.is_sound()) keep();
+      if (stepper_->steps() % Formulation<Dim>::steps_between_checks == 0) leave_checkpoint();
     }
+  }
+
+  void begin()
+  {
+    look();
+    record(time_step_.first());
+    keep();
+  }
+
+  void resume()
+  {
+    Archive& state = *continuation_.state;
+    archive(state);
+    if (const std::vector<std::string> unread = state.unread(); !unread.empty())
+      throw InputError(
+          fmt::format("checkpoint: {} belongs to nothing in this scene. Go on with the "
+                      "scene and the program that wrote it.",
+                      unread.front()));
+    continuation_.state.reset();
+    for (Observer<Dim>* observer : observers_) observer->resumed(history_.lines());
+    keep();
+  }
+
+  void archive(Archive& archive)
+  {
+    archive_run(archive, *stepper_, balance_, history_);
+    {
+      const Archive::Section section(archive, "run");
+      archive.value("step_share", step_share_);
+      archive.value("repeated_steps", result_.repeated_steps);
+      archive.value("step_seconds", result_.step_seconds, Over::largest);
+      archive.value("observer_seconds", result_.observer_seconds, Over::largest);
+      archive_goings_back(archive, result_.goings_back);
+    }
+    for (std::size_t k = 0; k < observers_.size(); ++k) {
+      const Archive::Section section(archive, "observer" + std::to_string(k));
+      observers_[k]->archive(archive);
+    }
+  }
+
+  /// After a check, so that the one who goes on chooses the same step. Where one is due, or the run
+  /// has to end.
+  void leave_checkpoint()
+  {
+    const double seconds = seconds_since(start_);
+    // Not all ranks get a signal, and none have the same clock.
+    std::array<double, 3> asked{
+        double(InterruptionSignals::seen()),
+        continuation_.time_limit && seconds > *continuation_.time_limit ? 1.0 : 0.0,
+        schedule_.is_due_by_clock(seconds) ? 1.0 : 0.0};
+    largest_over_ranks(comm_, asked);
+    const bool ends = asked[0] > 0 || asked[1] > 0;
+    const double strain = state().strain;
+    if (finished_at(stepper_->time(), stepper_->steps())) return;
+    const bool due = asked[2] > 0 || schedule_.is_due(stepper_->steps(), strain);
+    if (!ends && !(due && history_.is_sound())) return;
+    save();
+    schedule_.start(stepper_->steps(), strain, seconds);
+    if (!ends) return;
+    for (Observer<Dim>* observer : observers_) observer->finish();
+    throw Interruption(fmt::format(
+        "Ended after step {}, {}: {}. Go on with --restart.", stepper_->steps(),
+        model_.apparatus ? fmt::format("{:.2f} % strain", 100 * strain)
+                         : fmt::format("t = {:.4g} s", stepper_->time()),
+        asked[0] > 0 ? fmt::format("signal {}", int(asked[0])) : "the time limit was reached"));
+  }
+
+  void save()
+  {
+    const auto start = Clock::now();
+    MemoryArchive state;
+    state.start_saving();
+    archive(state);
+    state.text(checkpoint_record, continuation_.record);
+    checkpoints_.write(comm_, stepper_->steps(), state, schedule_.keep());
+    result_.observer_seconds += seconds_since(start);
   }
 
   template <class What>
@@ -193,36 +279,9 @@ class Run {
           "{} of {} cells have failed and were removed, and {:.4g} J with them. Results depend on "
           "the limits of failure and, where it localises, on the size of the cells.",
           last.failed_cells, result_.particles, last.failed_energy));
-    measure_cooperation();
+    result_.cooperation = cooperation_of(*stepper_, balance_, result_.particles);
     if (model_.apparatus) result_.properties = properties();
     result_.wall_seconds = seconds_since(start_);
-  }
-
-  void measure_cooperation()
-  {
-    const Counters mine = stepper_->counters();
-    const double steps = double(std::max<GlobalIndex>(stepper_->steps(), 1));
-    std::array<double, 4> largest{double(mine.messages) / steps, double(mine.bytes) / steps,
-                                  mine.waiting_seconds, double(stepper_->particles())};
-    largest_over_ranks(comm_, largest);
-    GlobalIndex migrated = mine.migrated;
-    sum_over_ranks(comm_, std::span(&migrated, 1));
-    const Ownership<Dim>& ownership = stepper_->decomposition().ownership();
-    std::string words = "metis";
-    if (ownership.by_cuts()) {
-      words = "cuts";
-      for (int d = 0; d < Dim; ++d)
-        words += fmt::format("{} {}", d ? " x" : "", ownership.ranks_per_axis()[d]);
-    }
-    result_.cooperation = {words,
-                           migrated,
-                           balance_.repartitions(),
-                           largest[0],
-                           largest[1],
-                           largest[2],
-                           largest[3] * ranks_of(comm_) / double(result_.particles),
-                           balance_.mean_imbalance(),
-                           balance_.mean_work_imbalance()};
   }
 
   analysis::CompressionProperties properties() const
@@ -249,6 +308,9 @@ class Run {
   const scene::Scene& scene_;
   const Layout<Dim>& layout_;
   std::span<Observer<Dim>* const> observers_;
+  Continuation continuation_;
+  CheckpointFolder checkpoints_;
+  CheckpointSchedule schedule_;
   Model<Dim> model_;
   TimeStep time_step_;
   std::unique_ptr<Formulation<Dim>> stepper_;
@@ -262,19 +324,14 @@ class Run {
 
 }  // namespace
 
-std::string GoingBack::text() const
-{
-  return fmt::format("{} Went back to step {}, t = {:.6g} s, and on with {:.4g} of the step.",
-                     reason, step, time, step_share);
-}
-
 template <int Dim>
-RunResult run(const Preparation<Dim>& preparation, std::span<Observer<Dim>* const> observers)
+RunResult run(const Preparation<Dim>& preparation, std::span<Observer<Dim>* const> observers,
+              Continuation continuation)
 {
-  return Run<Dim>(preparation, observers).run();
+  return Run<Dim>(preparation, observers, std::move(continuation)).run();
 }
 
-template RunResult run(const Preparation<2>&, std::span<Observer<2>* const>);
-template RunResult run(const Preparation<3>&, std::span<Observer<3>* const>);
+template RunResult run(const Preparation<2>&, std::span<Observer<2>* const>, Continuation);
+template RunResult run(const Preparation<3>&, std::span<Observer<3>* const>, Continuation);
 
 }  // namespace mpm

@@ -1,20 +1,27 @@
 /// A run that leaves its results in a folder and words on the terminal.
 
 #include <mpm/core/error.hpp>
+#include <mpm/core/interruption.hpp>
 #include <mpm/micrograph/preview.hpp>
+#include <mpm/output/checksum.hpp>
+#include <mpm/output/replace_file.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/scene/reader.hpp>
+#include <mpm/scene/scene_changes.hpp>
+#include <mpm/simulation/checkpoints.hpp>
 #include <mpm/simulation/exact_solution.hpp>
 #include <mpm/simulation/failure_snapshot.hpp>
 #include <mpm/simulation/progress.hpp>
+#include <mpm/simulation/results_folder.hpp>
 #include <mpm/simulation/run_summary.hpp>
 #include <mpm/simulation/snapshots.hpp>
 
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 namespace mpm {
@@ -40,6 +47,12 @@ class HistoryWriter final : public Observer<Dim> {
   void went_back(const GoingBack& back) override
   {
     on_rank_zero(comm_, [&] { file_->cut(back.lines); });
+  }
+  void resumed(const std::vector<HistoryLine>& lines) override
+  {
+    on_rank_zero(comm_, [&] {
+      for (const HistoryLine& line : lines) file_->append(history_row(line, kind_));
+    });
   }
 
  private:
@@ -91,28 +104,80 @@ void print(const analysis::CompressionProperties& found)
   point("onset of densification", found.densification);
 }
 
-template <int Dim>
-void make_folder(const Preparation<Dim>& preparation, const std::filesystem::path& folder)
+std::string effective_scene_text(const scene::Scene& effective)
 {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure)
-    throw FileError(fmt::format("{}: cannot make this folder ({}). Choose another with --output.",
-                                folder.string(), failure.message()));
-  std::ofstream effective(folder / "scene.yaml");
-  scene::write_effective_scene(effective, preparation.effective_scene());
-  if (!effective.flush())
-    throw FileError(fmt::format("{}: cannot write", (folder / "scene.yaml").string()));
-  micrograph::write_preview(preparation.specimen, folder / "specimen.png");
+  std::ostringstream text;
+  scene::write_effective_scene(text, effective);
+  return text.str();
+}
+
+/// A line of YAML each.
+std::string checksums_of(std::span<const std::filesystem::path> files)
+{
+  std::string lines;
+  for (const std::filesystem::path& file : files)
+    lines += fmt::format("\"checksum of {}\": {}\n", file.filename().string(),
+                         output::checksum_of(file));
+  return lines;
+}
+
+/// The state to go on from, and what is wrong with newer ones.
+template <int Dim>
+std::unique_ptr<Archive> take_up(const Preparation<Dim>& preparation, const RunRequest& request,
+                                 const std::string& record)
+{
+  const MPI_Comm comm = preparation.comm;
+  LoadedState loaded = load_state(comm, CheckpointFolder(request.results), request.checkpoint);
+  std::string before;
+  loaded.state->text(checkpoint_record, before);
+  agree(comm, [&] {
+    const std::vector<std::string> changes = scene::changes_that_matter(before, record);
+    if (changes.empty()) return;
+    throw InputError(fmt::format("{}: is of another scene: {}. Go on with the scene as it was.",
+                                 loaded.file.string(), fmt::join(changes, "; ")));
+  });
+  on_rank_zero(comm, [&] {
+    for (const std::string& reason : loaded.passed_over) spdlog::warn(reason);
+    const std::string others =
+        loaded.ranks == ranks_of(comm)
+            ? ""
+            : fmt::format(" of {} rank{}", loaded.ranks, loaded.ranks == 1 ? "" : "s");
+    fmt::print("goes on from {}{}\n", loaded.file.string(), others);
+  });
+  return std::move(loaded.state);
+}
+
+/// The folder is ready for results, and nothing in it is of another run.
+template <int Dim>
+Continuation begin_in_folder(const Preparation<Dim>& preparation, const RunRequest& request)
+{
+  Continuation continuation{.results = request.results, .time_limit = request.time_limit};
+  const std::string effective = effective_scene_text(preparation.effective_scene());
+  agree(preparation.comm,
+        [&] { continuation.record = effective + checksums_of(request.pictures); });
+  if (request.restart) continuation.state = take_up(preparation, request, continuation.record);
+  on_rank_zero(preparation.comm, [&] {
+    const ResultsFolder folder(request.results);
+    std::vector<std::filesystem::path> inputs = request.pictures;
+    inputs.push_back(request.scene);
+    if (request.restart)
+      folder.go_on();
+    else
+      folder.start_anew(inputs, effective, request.overwrite);
+    output::replace_file(request.results / "scene.yaml", effective);
+    micrograph::write_preview(preparation.specimen, request.results / "specimen.png");
+  });
+  return continuation;
 }
 
 }  // namespace
 
 template <int Dim>
-RunResult run_in_folder(const Preparation<Dim>& preparation, const std::filesystem::path& folder)
+RunResult run_in_folder(const Preparation<Dim>& preparation, const RunRequest& request)
 {
   const MPI_Comm comm = preparation.comm;
-  on_rank_zero(comm, [&] { make_folder(preparation, folder); });
+  const std::filesystem::path& folder = request.results;
+  Continuation continuation = begin_in_folder(preparation, request);
   HistoryWriter<Dim> history(comm, folder);
   ProgressWriter<Dim> progress(comm);
   FailureSnapshot<Dim> failure(preparation, folder);
@@ -123,7 +188,8 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const std::filesyst
     observers.push_back(&snapshots.emplace(preparation, folder));
   else
     on_rank_zero(comm, [&] { output::SnapshotSeries::take_down(folder, preparation.scene.name); });
-  const RunResult result = run<Dim>(preparation, observers);
+  const InterruptionSignals signals;
+  const RunResult result = run<Dim>(preparation, observers, std::move(continuation));
   on_rank_zero(comm, [&] {
     write_summary(preparation, result, exact, folder / "summary.json");
     for (const std::string& warning : result.warnings) spdlog::warn(warning);
@@ -139,7 +205,7 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const std::filesyst
   return result;
 }
 
-template RunResult run_in_folder(const Preparation<2>&, const std::filesystem::path&);
-template RunResult run_in_folder(const Preparation<3>&, const std::filesystem::path&);
+template RunResult run_in_folder(const Preparation<2>&, const RunRequest&);
+template RunResult run_in_folder(const Preparation<3>&, const RunRequest&);
 
 }  // namespace mpm

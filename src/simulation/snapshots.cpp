@@ -180,14 +180,19 @@ template <int Dim>
 void Snapshots<Dim>::look(const typename Observer<Dim>::State& state)
 {
   Formulation<Dim>& formulation = state.formulation;
-  bool due = false;
-  while (next_ < moments_.size() && formulation.time() >= moments_[next_] * (1 - 1e-9)) {
-    due = true;
-    ++next_;
-  }
-  if (!due) return;
+  looked_ = formulation.time();
+  if (!pass_moments()) return;
   formulation.check();
   series_.write(snapshot_of(formulation, state.strain, fields_));
+}
+
+/// Whether any has come.
+template <int Dim>
+bool Snapshots<Dim>::pass_moments()
+{
+  const std::size_t before = next_;
+  while (next_ < moments_.size() && looked_ >= moments_[next_] * (1 - 1e-9)) ++next_;
+  return next_ > before;
 }
 
 template <int Dim>
@@ -202,6 +207,16 @@ void Snapshots<Dim>::went_back(const GoingBack&)
 {
   next_ = next_when_kept_;
   series_.cut(written_when_kept_);
+}
+
+template <int Dim>
+void Snapshots<Dim>::archive(Archive& archive)
+{
+  archive.value("looked", looked_);
+  series_.archive(archive);
+  if (!archive.is_loading()) return;
+  next_ = 0;
+  pass_moments();
 }
 
 template output::Snapshot snapshot_of(Formulation<2>&, double, const std::vector<scene::Field>&);

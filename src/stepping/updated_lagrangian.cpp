@@ -162,6 +162,12 @@ void UpdatedLagrangian<Dim>::archive(Archive& archive)
     all.archive(archive);
     if (archive.is_loading()) counters_ = all -= counters_of_exchange();
   }
+  if (archive.regroups()) {
+    take_own_particles(archive);
+    archive.pass_over("exchange");
+    for (std::size_t f = 0; f < fields_.size(); ++f) archive.pass_over("field" + std::to_string(f));
+    return setup_.slots.archive(archive);
+  }
   for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
     const Archive::Section section(archive, "body" + std::to_string(b));
     setup_.bodies[b].particles.archive(archive);
@@ -175,6 +181,22 @@ void UpdatedLagrangian<Dim>::archive(Archive& archive)
     fields_[f].archive(archive);
   }
   setup_.slots.archive(archive);
+}
+
+/// Those of all ranks that are in this one's cells; then all is as after a repartition.
+template <int Dim>
+void UpdatedLagrangian<Dim>::take_own_particles(Archive& archive)
+{
+  const Decomposition<Dim> here = decomposition();
+  const auto is_here = [&](std::span<const double> row) {
+    const Eigen::Map<const Vec<Dim>> position(row.data());
+    return here.owner_of_cell(here.geometry().cell_of(position)) == here.rank();
+  };
+  for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
+    const Archive::Section section(archive, "body" + std::to_string(b));
+    setup_.bodies[b].particles.take(archive, archive.rows_where("motion/position", Dim, is_here));
+  }
+  connect(here);
 }
 
 template class UpdatedLagrangian<2>;

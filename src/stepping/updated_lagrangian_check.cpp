@@ -48,10 +48,10 @@ Counters& Counters::operator-=(const Counters& other)
 
 void Counters::archive(Archive& archive)
 {
-  archive.value("migrated", migrated);
-  archive.value("messages", messages);
-  archive.value("bytes", bytes);
-  archive.value("waiting_seconds", waiting_seconds);
+  archive.value("migrated", migrated, Over::sum);
+  archive.value("messages", messages, Over::largest);
+  archive.value("bytes", bytes, Over::largest);
+  archive.value("waiting_seconds", waiting_seconds, Over::largest);
 }
 
 template <int Dim>

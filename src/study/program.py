@@ -67,7 +67,7 @@ class Program:
 
     def run(self, scene, assignments, ranks, folder, time_limit=None):
         """Runs to the end; results in `folder`, what it printed in `folder`.log."""
-        words = self._words(scene, assignments) + ["--output", str(folder)]
+        words = [*self._words(scene, assignments), "--output", str(folder), "--overwrite"]
         if ranks > 1:
             if not shutil.which(self.mpiexec[0]):
                 raise InputError(f"{self.mpiexec[0]}: not found, and ranks is {ranks}. "

@@ -73,7 +73,7 @@ def run(mpm_par, scene, settings, folder):
     cost = kept_cost(mpm_par, scene, settings, folder)
     if cost is not None:
         return place, cost
-    command = [str(mpm_par), str(scene), "--output", str(place)]
+    command = [str(mpm_par), str(scene), "--output", str(place), "--overwrite"]
     for setting in settings:
         command += ["--set", setting]
     place.mkdir(parents=True, exist_ok=True)

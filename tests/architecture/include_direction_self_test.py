@@ -33,7 +33,7 @@ class IncludeDirection(unittest.TestCase):
                 ("src/simulation/step.cpp", "<petsc.h>", "belongs in parallel/"),
                 ("src/main.cpp", "<petscsys.h>", "belongs in parallel/"),
                 ("src/scene/reader.cpp", "<mpi.h>", "belongs in parallel/ output/"),
-                ("src/output/xdmf.cpp", "<hdf5.h>", "belongs in output/hdf5_file"),
+                ("src/output/xdmf.cpp", "<hdf5.h>", "belongs in output/hdf5_"),
                 ("src/scene/value.cpp", "<muParser.h>", "belongs in core/formula"),
                 ("src/micrograph/image.cpp", "<yaml-cpp/yaml.h>", "belongs in scene/"),
                 ("src/transfer/scatter.cpp", "<fmt/format.h>", "physics sees Eigen"),

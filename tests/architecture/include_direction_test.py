@@ -16,7 +16,7 @@ MAY_INCLUDE = {folder: set(others.split()) | {folder} for folder, others in {
     "main.cpp": PHYSICS + " parallel stepping lagrangian scene micrograph output analysis simulation"}.items()}
 MPI, TOOLS = "parallel/ output/", "scene/ micrograph/draw_wood analysis/mpm_curve main.cpp"
 WALLS = {r"petsc\w*\.h": "parallel/", r"mpi\.h": MPI, r"metis\.h": "parallel/",
-         r"(hdf5|H5\w+)\.h": "output/hdf5_file", r"yaml-cpp/.*": "scene/ micrograph/anatomy",
+         r"(hdf5|H5\w+)\.h": "output/hdf5_", r"yaml-cpp/.*": "scene/ micrograph/anatomy",
          r"CLI/.*": TOOLS, r"udunits2\.h": "core/units", r"muParser\.h": "core/formula", r"stb_\w+\.h|tiff\w*\.h": "micrograph/",
          r"pugixml\.hpp": "output/", r"nlohmann/.*": "output/ analysis/"}
 FREE_IN_PHYSICS = r"Eigen/\w+|experimental/simd|\w+"  # \w+: the standard library

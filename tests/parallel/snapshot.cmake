@@ -5,6 +5,11 @@ target_include_directories(snapshot_test PRIVATE ${HDF5_C_INCLUDE_DIRS})
 target_compile_definitions(snapshot_test PRIVATE
                            MPM_SCRATCH_DIRECTORY="${CMAKE_BINARY_DIR}/snapshot_test_files")
 
+mpm_parallel_test(state_file_test RANKS 1 2 3 SOURCES ${CMAKE_CURRENT_LIST_DIR}/state_file_test.cpp
+                  LIBRARIES mpm_output mpm_core)
+target_compile_definitions(state_file_test PRIVATE
+                           MPM_SCRATCH_DIRECTORY="${CMAKE_BINARY_DIR}/state_file_test_files")
+
 set(series ${CMAKE_BINARY_DIR}/snapshot_test_files/for_paraview)
 add_test(NAME paraview_series_is_written
          COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} 2 ${MPIEXEC_PREFLAGS}

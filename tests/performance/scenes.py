@@ -14,7 +14,7 @@ SHAPES = ("linear", "gimp", "quadratic")
 
 
 def command(build, scene, folder, settings=()):
-    words = [build.mpm_par, scene, "--output", folder]
+    words = [build.mpm_par, scene, "--output", folder, "--overwrite"]
     for setting in settings:
         words += ["--set", setting]
     return words

@@ -161,7 +161,7 @@ class Plan(ProgramTest):
     def flight(self, margin):
         file = self.folder / "flight.yaml"
         file.write_text(FLIGHT.replace("MARGIN", margin))
-        run = mpm_par(file, "--output", self.folder / "results")
+        run = mpm_par(file, "--overwrite", "--output", self.folder / "results")
         self.assertEqual(run.returncode, 0, run.stderr)
         return summary(self.folder / "results")
 

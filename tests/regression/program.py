@@ -54,9 +54,9 @@ class ProgramTest(unittest.TestCase):
         self.folder.mkdir(parents=True)
 
     def results(self, scene_name, *settings, ranks=1, label="results"):
-        """Runs a scene that must end well; returns its folder of results."""
+        """Runs a scene that must end well; returns its folder of results, without those of an earlier run."""
         folder = self.folder / label
         options = [word for setting in settings for word in ("--set", setting)]
-        run = mpm_par(scene(scene_name), "--output", folder, *options, ranks=ranks)
+        run = mpm_par(scene(scene_name), "--output", folder, "--overwrite", *options, ranks=ranks)
         self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
         return folder

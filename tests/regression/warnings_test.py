@@ -62,7 +62,7 @@ class Warnings(ProgramTest):
         said = [line.split("warning", 1)[1].strip() for line in check.stdout.splitlines()
                 if line.startswith("  warning")]
         folder = self.folder / "results"
-        run = mpm_par(file, "--output", folder, *options, ranks=2)
+        run = mpm_par(file, "--output", folder, "--overwrite", *options, ranks=2)
         self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
         self.assertEqual(summary(folder)["warnings"], said)
         for warning in said:

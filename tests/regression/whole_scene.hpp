@@ -88,7 +88,7 @@ inline Outcome run_scene(const std::string& text)
   const Preparation<2> preparation(MPI_COMM_WORLD, scene, std::nullopt);
   Witness witness(preparation);
   std::array<Observer<2>*, 1> observers{&witness};
-  RunResult result = run<2>(preparation, observers);
+  RunResult result = run<2>(preparation, observers, {});
   return {std::move(result), std::move(witness.times), std::move(witness.particles)};
 }
 

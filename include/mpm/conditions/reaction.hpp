@@ -36,8 +36,8 @@ struct Reaction {
   Reaction take() { return std::exchange(*this, Reaction{}); }
   void archive(Archive& archive)
   {
-    archive.values("impulse", {impulse.data(), std::size_t(Dim)});
-    archive.value("work", work);
+    archive.values("impulse", {impulse.data(), std::size_t(Dim)}, Over::sum);
+    archive.value("work", work, Over::sum);
   }
 };
 

@@ -10,7 +10,13 @@
 namespace mpm {
 
 /// Exit status of the programs: the same on every rank.
-enum class ExitStatus : int { done = 0, bad_input = 2, numerical_failure = 3, file_failure = 4 };
+enum class ExitStatus : int {
+  done = 0,
+  bad_input = 2,
+  numerical_failure = 3,
+  file_failure = 4,
+  interrupted = 75  ///< EX_TEMPFAIL: to be started again
+};
 
 /// The user's input is wrong. Carries every problem found, one line each:
 /// `file:line:column: key path is VALUE (why it is wrong). Remedy.`
@@ -41,6 +47,11 @@ class NumericalError : public std::runtime_error {
 
 /// Reading or writing a file failed for a reason that is not the scene's fault.
 class FileError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The run was asked to end before its end, and has left behind what it goes on from.
+class Interruption : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

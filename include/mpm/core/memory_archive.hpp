@@ -22,24 +22,49 @@ class MemoryArchive final : public Archive {
   void start_loading();
 
   bool is_loading() const override { return loading_; }
-  void values(std::string_view name, std::span<double> values) override;
-  void values(std::string_view name, std::span<std::int64_t> values) override;
+  void values(std::string_view name, std::span<double> values, Over over = Over::same) override;
+  void values(std::string_view name, std::span<std::int64_t> values,
+              Over over = Over::same) override;
   void list(std::string_view name, std::vector<double>& list) override;
   void list(std::string_view name, std::vector<std::int64_t>& list) override;
   void text(std::string_view name, std::string& text) override;
+  void rows(std::string_view name, std::span<const std::int64_t>, std::span<double> values) override
+  {
+    this->values(name, values);
+  }
+  void rows(std::string_view name, std::span<const std::int64_t>,
+            std::span<std::int64_t> values) override
+  {
+    this->values(name, values);
+  }
+  std::vector<std::string> unread() const override;
 
-  /// What nobody has asked for since `start_loading`, in alphabetical order.
-  std::vector<std::string> unread() const;
+  using Value = std::variant<std::vector<double>, std::vector<std::int64_t>, std::string>;
+  /// Of all that is there, in alphabetical order.
+  void visit(const std::function<void(const std::string& name, const Value& value)>& visit) const;
+  /// As if it had been saved by this whole name.
+  void put(std::string name, Value value);
+
   /// What only one of the two has, or what is not the same to the last bit, in alphabetical order.
   friend std::vector<std::string> differences(const MemoryArchive& a, const MemoryArchive& b);
 
  private:
-  using Value = std::variant<std::vector<double>, std::vector<std::int64_t>, std::string>;
   struct Entry {
     Value value;
     bool read = false;
   };
 
+  [[noreturn]] static void does_not_regroup();
+  std::vector<std::int64_t> places_of(std::string_view, std::span<const std::int64_t>) override
+  {
+    does_not_regroup();
+  }
+  std::vector<std::int64_t> rows_where(std::string_view, int,
+                                       const std::function<bool(std::span<const double>)>&) override
+  {
+    does_not_regroup();
+  }
+  void pass_over(std::string_view) override { does_not_regroup(); }
   void enter(std::string_view name) override;
   void leave() override;
   std::string full(std::string_view name) const;

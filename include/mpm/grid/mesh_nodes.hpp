@@ -18,6 +18,8 @@ class MeshNodes final : public Nodes<Dim> {
   /// `corners` of the lattice, `size` of a location, m, `period` in locations, 0 for axes without.
   MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> owned, const Vec<Dim>& size,
             const IndexVec<Dim>& period, const CornerOffsets<Dim>& offsets = {});
+  /// Of nodes that share a corner: each has one of its own, the same on every rank.
+  void set_kinds(std::vector<char> kinds) { kinds_ = std::move(kinds); }
 
   LocalIndex size() const override { return LocalIndex(owned_.size()); }
   void find_within(const Region<Dim>& region, std::vector<LocalIndex>& nodes) const override;
@@ -53,11 +55,16 @@ class MeshNodes final : public Nodes<Dim> {
 
   /// All of them.
   NodeRun<Dim> run() const { return {0, size(), IndexVec<Dim>::Zero()}; }
-  void archive(Archive& archive);
+  /// Returns, where they are regrouped, which of all ranks' nodes these are.
+  std::vector<std::int64_t> archive(Archive& archive);
   std::size_t bytes() const;
 
  private:
+  GlobalIndex key(LocalIndex node, const IndexVec<Dim>& corner) const;
+  std::vector<std::int64_t> find_saved(Archive& archive, std::vector<IndexVec<Dim>>& saved) const;
+
   std::vector<IndexVec<Dim>> corners_;
+  std::vector<char> kinds_;  ///< empty where each corner has one node
   std::vector<char> owned_;
   std::vector<char> led_;   ///< empty where none is
   std::vector<char> free_;  ///< empty where none is

@@ -115,7 +115,8 @@ class NodeFields {
   NodeColumn surface_column() { return {surface.data(), surface_width, surface_width}; }
   NodeColumn remap_column() { return {remapped_momentum.data(), remap_width, Dim}; }
 
-  void archive(Archive& archive);
+  /// Regrouped, they are these nodes of all ranks'.
+  void archive(Archive& archive, std::span<const std::int64_t> rows = {});
   std::size_t bytes() const;
 
   // Node values, local numbering, x fastest. [N], [N * record_width], ...; kg, kg m/s and N, m/s.

@@ -31,7 +31,9 @@ struct LocationMesh {
   /// Of each cell, in the order in which they were given: its nodes.
   std::vector<std::array<LocalIndex, corners>> cells;
   std::vector<IndexVec<Dim>> nodes;  ///< corners of the lattice, x fastest; of bodies apart in turn
-  std::vector<char> owned;           ///< by one rank each; images by nobody
+  /// Of each node: the first body that has it, which is the same on every rank.
+  std::vector<char> first_bodies;
+  std::vector<char> owned;  ///< by one rank each; images by nobody
   SharedNodes shared;
 };
 

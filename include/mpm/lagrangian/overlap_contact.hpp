@@ -52,6 +52,7 @@ class OverlapContact final : public SelfContact<Dim> {
   void add_forces(NodeFields<Dim>& fields) const override;
   void add_friction(const NodeFields<Dim>& fields, double dt, std::span<double> friction) override;
   void count_stiffness(std::span<LaneVector<double>> least_stretches, double way) override;
+  void forget_stiffness() override;
   double energy() const override { return energy_; }
   double overlapped_area() const override;
   GlobalIndex touching() const override { return touching_; }

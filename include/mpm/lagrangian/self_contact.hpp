@@ -54,6 +54,8 @@ class SelfContact {
   /// borne_contact contact has made the cells at some `measure` since the last call, or may before
   /// the next one if two cells come nearer by `way`, m. Every rank calls it.
   virtual void count_stiffness(std::span<LaneVector<double>> least_stretches, double way) = 0;
+  /// As after a count: the present overlaps, found again in the middle of a step, have counted.
+  virtual void forget_stiffness() = 0;
 
   // At the last call of `measure`, of this rank's cells.
   virtual void add_forces(NodeFields<Dim>& fields) const = 0;

@@ -97,6 +97,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   void part(std::span<const double> failed_locations);
   void list_what_is_left();
   void archive_failure(Archive& archive);
+  void archive_cells(Archive& archive, std::size_t number);
   IndexVec<Dim> location_of(const Body<Dim>& body, LocalIndex particle) const;
   IndexVec<Dim> period() const;
   /// Whether no cell that can be deformed has a node.
@@ -132,6 +133,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   /// By masses that come and go, by friction and by rigid bodies; to this rank's nodes.
   Reaction<Dim> given_;
 
+  Counters earlier_;          ///< of runs that this one goes on with
   FailedCells failed_;        ///< of this rank
   Occupants<Dim> occupants_;  ///< where cells may fail
 

@@ -26,13 +26,17 @@ class Hdf5File {
 
   void create_group(const std::string& name);
 
-  /// The ranks' rows one after the other in rank order; a scalar column has one component.
+  /// The ranks' rows one after the other in rank order; a scalar column has one component. Groups
+  /// on the way to it are made.
   void write_rows(const std::string& dataset, const std::string& unit, int components,
                   std::span<const double> values);
   void write_rows(const std::string& dataset, const std::string& unit, int components,
                   std::span<const std::int64_t> values);
   void write_rows(const std::string& dataset, const std::string& unit, int components,
                   std::span<const std::int32_t> values);
+
+  void write_rows(const std::string& dataset, const std::string& unit, int components,
+                  std::span<const std::uint8_t> values);
 
   /// On the root group; the value of rank 0.
   void set_attribute(const std::string& name, double value);

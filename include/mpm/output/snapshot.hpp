@@ -1,6 +1,7 @@
 #pragma once
 /// A picture of all particles at one moment, written collectively by all ranks.
 
+#include <mpm/core/archive.hpp>
 #include <mpm/output/xdmf.hpp>
 
 #include <cstdint>
@@ -51,6 +52,8 @@ class SnapshotSeries {
   static void take_down(const std::filesystem::path& directory, const std::string& name);
   /// Takes down all but the first ones. Collective.
   void cut(int written);
+  /// What has been written; a series that goes on names what is still there of it. Collective.
+  void archive(Archive& archive);
 
  private:
   MPI_Comm comm_;

@@ -4,6 +4,8 @@
 #include <mpm/grid/grid_geometry.hpp>
 
 #include <array>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace mpm {
@@ -22,6 +24,11 @@ class Ownership {
   /// at least one.
   Ownership(const GridGeometry<Dim>& geometry, LocalIndex edge, std::vector<int> rank_of_block,
             int ranks);
+
+  /// From `packed` of one on the same grid. Throws InputError if it is none.
+  static Ownership unpacked(const GridGeometry<Dim>& geometry,
+                            std::span<const std::int64_t> packed);
+  std::vector<std::int64_t> packed() const;
 
   const GridGeometry<Dim>& geometry() const { return geometry_; }
   int ranks() const { return int(bounds_.size()); }

@@ -55,8 +55,8 @@ class ColumnGroup {
   /// Particle k becomes the one that was at order[k]. `scratch` is for reuse.
   void permute(std::span<const LocalIndex> order, std::vector<double>& scratch);
   std::size_t bytes() const { return data_.capacity() * sizeof(double); }
-  /// Of so many particles, column by column.
-  void archive(Archive& archive, LocalIndex particles);
+  /// Of so many particles, column by column; regrouped, they are these of all.
+  void archive(Archive& archive, LocalIndex particles, std::span<const std::int64_t> rows);
 
  private:
   std::vector<Column> columns_;
@@ -100,8 +100,11 @@ class ParticleStore {
   }
   /// All particles in their order.
   void archive(Archive& archive);
+  /// Regrouped: takes these of all ranks' particles, in the place of those that are here.
+  void take(Archive& archive, std::span<const std::int64_t> rows);
 
  private:
+  void archive_columns(Archive& archive, std::span<const std::int64_t> rows);
   ColumnGroup motion_, state_;
   std::vector<GlobalIndex> ids_;
   std::vector<int> zero_motion_, zero_state_;

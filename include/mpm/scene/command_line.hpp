@@ -13,11 +13,15 @@ namespace mpm::scene {
 
 struct CommandLine {
   std::filesystem::path scene;
-  std::optional<std::filesystem::path> output;  ///< --output
-  bool check = false;                           ///< --check: read, print the plan, run nothing
-  std::vector<int> ranks;                       ///< --ranks: numbers of ranks to study
-  std::vector<std::string> overrides;           ///< --set
-  std::vector<std::string> petsc;               ///< options for PETSc with their values, in order
+  std::optional<std::filesystem::path> output;      ///< --output
+  bool check = false;                               ///< --check: read, print the plan, run nothing
+  std::vector<int> ranks;                           ///< --ranks: numbers of ranks to study
+  std::vector<std::string> overrides;               ///< --set
+  bool restart = false;                             ///< --restart: from the newest checkpoint
+  std::optional<std::filesystem::path> checkpoint;  ///< or from the one named
+  bool overwrite = false;                           ///< --overwrite: results of another run
+  std::optional<double> time_limit;                 ///< --time-limit, s
+  std::vector<std::string> petsc;  ///< options for PETSc with their values, in order
 };
 
 /// A question answered without a run (--help, --version, --input-reference): print on one rank and

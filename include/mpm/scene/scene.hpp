@@ -236,12 +236,22 @@ struct ExactSolution {
   bool operator==(const ExactSolution&) const = default;
 };
 
+/// When a run leaves its state behind, to go on from.
+struct Checkpoints {
+  std::optional<int> steps;         ///< every so many
+  std::optional<double> strain;     ///< with every so much more
+  std::optional<double> wall_time;  ///< s, every so long
+  int keep = 2;                     ///< the last so many
+  bool operator==(const Checkpoints&) const = default;
+};
+
 struct Output {
   int history_lines = 600;
   std::vector<double> snapshot_strains;                              ///< with a piston
   std::vector<double> snapshot_times;                                ///< s
   std::vector<Field> fields{Field::von_mises, Field::plastic_work};  ///< position is always there
   bool compress = false;  ///< gzip 1 + shuffle: half the size, 3-4 times the time
+  std::optional<Checkpoints> checkpoints;
   bool operator==(const Output&) const = default;
 };
 

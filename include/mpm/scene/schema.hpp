@@ -59,6 +59,8 @@ template <>
 inline constexpr std::string_view section<ExactSolution> = "exact solution";
 template <>
 inline constexpr std::string_view section<OutputKeys> = "output";
+template <>
+inline constexpr std::string_view section<Checkpoints> = "checkpoints";
 inline constexpr std::string_view snapshots_section = "snapshots";
 
 template <>
@@ -95,6 +97,8 @@ template <>
 const std::vector<Parameter<ExactSolution>>& parameters<ExactSolution>();
 template <>
 const std::vector<Parameter<OutputKeys>>& parameters<OutputKeys>();
+template <>
+const std::vector<Parameter<Checkpoints>>& parameters<Checkpoints>();
 template <>
 const std::vector<Parameter<SnapshotKeys>>& parameters<SnapshotKeys>();
 

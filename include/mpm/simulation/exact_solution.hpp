@@ -26,6 +26,8 @@ class ExactSolution final : public Observer<Dim> {
   void line(const typename Observer<Dim>::State& state, const HistoryLine& line) override;
 
   void went_back(const GoingBack& back) override;
+  void archive(Archive& archive) override;
+  void resumed(const std::vector<HistoryLine>& lines) override;
 
   /// The errors at the end, and over the largest size of the exact solution in the run.
   void describe(output::Summary& summary) const;
@@ -37,7 +39,7 @@ class ExactSolution final : public Observer<Dim> {
   struct Comparison {
     Quantity quantity;
     std::string what, unit;
-    std::vector<const Formula*> exact;    ///< per component; nullptr: not compared
+    std::vector<const Formula*> exact;  ///< per component; nullptr: not compared
     /// Of each line: root mean square and largest error, root mean square of the exact solution.
     std::vector<double> error{}, largest_error{}, size{};
     double whole_size() const { return std::ranges::max(size); }
@@ -47,6 +49,8 @@ class ExactSolution final : public Observer<Dim> {
   template <class Visit>
   void for_each_value(const Body<Dim>& body, const Formulation<Dim>& formulation, double last_step,
                       Visit visit);
+
+  void write_row(std::size_t line, double time);
 
   const Preparation<Dim>& preparation_;
   std::filesystem::path folder_;

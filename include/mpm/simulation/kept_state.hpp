@@ -5,9 +5,13 @@
 #include <mpm/simulation/history.hpp>
 #include <mpm/stepping/load_balance.hpp>
 
-#include <optional>
-
 namespace mpm {
+
+/// State of the three, as it goes on: what one has saved another one on the same ranks, set up for
+/// the same scene, loads. Collective where it loads.
+template <int Dim>
+void archive_run(Archive& archive, Formulation<Dim>& formulation, LoadBalance<Dim>& balance,
+                 History<Dim>& history);
 
 template <int Dim>
 class KeptState {
@@ -21,10 +25,7 @@ class KeptState {
   void load(Formulation<Dim>& formulation, LoadBalance<Dim>& balance, History<Dim>& history);
 
  private:
-  void archive(Formulation<Dim>& formulation, LoadBalance<Dim>& balance, History<Dim>& history);
-
   MemoryArchive archive_;
-  std::optional<Ownership<Dim>> ownership_;
 };
 
 }  // namespace mpm

@@ -25,11 +25,15 @@ class Snapshots final : public Observer<Dim> {
   void look(const typename Observer<Dim>::State& state) override;
   void kept() override;
   void went_back(const GoingBack& back) override;
+  void archive(Archive& archive) override;
 
  private:
+  bool pass_moments();
+
   std::vector<scene::Field> fields_;
   output::SnapshotSeries series_;
   std::vector<double> moments_;  ///< s, ascending
+  double looked_ = -1;           ///< s, when last
   std::size_t next_ = 0;
   std::size_t next_when_kept_ = 0;
   int written_when_kept_ = 0;

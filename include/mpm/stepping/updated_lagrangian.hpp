@@ -54,6 +54,7 @@ class UpdatedLagrangian final : public Formulation<Dim> {
   const std::vector<NodeFields<Dim>>& fields() const { return fields_; }
 
  private:
+  void take_own_particles(Archive& archive);
   void connect(Decomposition<Dim> decomposition);
   void sort_and_activate();
   Step<Dim> next_step();

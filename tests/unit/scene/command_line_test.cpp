@@ -61,6 +61,29 @@ TEST(CommandLineOptions, RanksToStudyAreAListAndBelongToCheck)
   EXPECT_THAT(refusal({"--check", "--ranks", "0", "a.yaml"}), HasSubstr("--ranks"));
 }
 
+TEST(CommandLineOptions, ARunGoesOnFromTheNewestCheckpointOrFromAFile)
+{
+  const CommandLine newest = parsed({"--restart", "a.yaml"});
+  EXPECT_TRUE(newest.restart);
+  EXPECT_FALSE(newest.checkpoint);
+  EXPECT_EQ(newest.scene, "a.yaml");
+  const CommandLine named = parsed({"a.yaml", "--restart", "000000000100.h5", "-log_view"});
+  EXPECT_TRUE(named.restart);
+  EXPECT_EQ(named.checkpoint, "000000000100.h5");
+  EXPECT_THAT(named.petsc, ElementsAre("-log_view"));
+  EXPECT_THAT(refusal({"--restart", "--overwrite", "a.yaml"}), HasSubstr("Give one of them"));
+}
+
+TEST(CommandLineOptions, ALimitOfTimeHasAUnit)
+{
+  EXPECT_DOUBLE_EQ(*parsed({"--time-limit", "90 min", "a.yaml"}).time_limit, 5400);
+  EXPECT_DOUBLE_EQ(*parsed({"a.yaml", "--time-limit=2 h"}).time_limit, 7200);
+  EXPECT_FALSE(parsed({"a.yaml"}).time_limit);
+  for (const char* wrong : {"5", "0 s", "-3 s", "4 m", "soon"})
+    EXPECT_THAT(refusal({"a.yaml", "--time-limit", wrong}),
+                HasSubstr(std::string("--time-limit is ") + wrong));
+}
+
 TEST(CommandLineOptions, PetscGetsItsOwnWithTheirValues)
 {
   const CommandLine line = parsed(

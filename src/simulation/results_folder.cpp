@@ -1,0 +1,115 @@
+#include <mpm/core/error.hpp>
+#include <mpm/output/replace_file.hpp>
+#include <mpm/simulation/results_folder.hpp>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace mpm {
+
+namespace {
+
+constexpr std::array<const char*, 5> files_of_a_run{
+    "history.csv", "summary.json", "exact_solution.csv", "scene.yaml", "specimen.png"};
+
+/// Without the title of an effective scene, which names the file that it was made of.
+std::string without_title(const std::string& text)
+{
+  return text.starts_with('#') ? text.substr(std::min(text.find('\n'), text.size())) : text;
+}
+
+bool is_effective_scene(const std::filesystem::path& file, const std::string& effective_scene)
+{
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return without_title(text.str()) == without_title(effective_scene);
+}
+
+/// Files of a folder with one of these endings; none if there is no such folder.
+std::vector<std::filesystem::path> files_ending(const std::filesystem::path& folder,
+                                                std::string_view ending)
+{
+  std::vector<std::filesystem::path> found;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(ending) || name.ends_with(std::string(ending) + ".part"))
+      found.push_back(entry.path());
+  }
+  return found;
+}
+
+}  // namespace
+
+void ResultsFolder::start_anew(std::span<const std::filesystem::path> inputs,
+                               const std::string& effective_scene, bool overwrite) const
+{
+  for (const std::filesystem::path& input : inputs)
+    for (const char* name : files_of_a_run) {
+      const std::filesystem::path place = folder_ / name;
+      std::error_code none;
+      if (std::filesystem::equivalent(input, place, none) &&
+          !is_effective_scene(place, effective_scene))
+        throw InputError(fmt::format(
+            "{}: the run reads this file, and would write its {} there. Choose another folder with "
+            "--output.",
+            place.string(), name));
+    }
+  if (holds_a_run()) {
+    if (!overwrite)
+      throw InputError(fmt::format(
+          "{}: holds the results of a run. Replace them with --overwrite, go on with that run with "
+          "--restart, or choose another folder with --output.",
+          folder_.string()));
+    clear();
+  }
+  output::make_directory(folder_);
+}
+
+void ResultsFolder::go_on() const
+{
+  output::make_directory(folder_);
+  remove(folder_ / "summary.json");
+}
+
+bool ResultsFolder::holds_a_run() const
+{
+  return std::ranges::any_of(
+             files_of_a_run,
+             [&](const char* name) { return std::filesystem::exists(folder_ / name); }) ||
+         !files_ending(folder_ / "checkpoints", ".h5").empty();
+}
+
+void ResultsFolder::remove(const std::filesystem::path& file) const
+{
+  std::error_code failure;
+  std::filesystem::remove(file, failure);
+  if (failure)
+    throw FileError(fmt::format("{}: cannot be removed ({}). Choose another folder with --output.",
+                                file.string(), failure.message()));
+}
+
+void ResultsFolder::clear() const
+{
+  const std::filesystem::path failure = folder_ / "failure";
+  for (const std::filesystem::path& folder : {folder_, failure}) {
+    for (const std::filesystem::path& list : files_ending(folder, ".xdmf")) remove(list);
+    for (const char* part : {"snapshots", "checkpoints"}) {
+      for (const std::filesystem::path& file : files_ending(folder / part, ".h5")) remove(file);
+      std::error_code kept;  // with what else stands there
+      std::filesystem::remove(folder / part, kept);
+    }
+  }
+  std::error_code kept;
+  std::filesystem::remove(failure, kept);
+  for (const char* name : files_of_a_run) remove(folder_ / name);
+}
+
+}  // namespace mpm

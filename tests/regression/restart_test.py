@@ -1,0 +1,221 @@
+"""A run that ended before its end, by a signal, the clock, a kill or a limit of steps, goes on from its
+last checkpoint with the same bits: history, snapshots and what the summary says of them."""
+import os
+import pathlib
+import signal
+import subprocess
+import time
+import unittest
+
+from program import History, ProgramTest, mpm_par, scene, summary
+
+INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
+SNAPSHOTS = "output.snapshots={strains: [0 %, 10 %, 20 %, 29 %]}"
+RING = (INPUTS / "benchmarks" / "crushed_ring.yaml",
+        ["grid.cells=[14, 14]", "loading.speed=50 m/s", "loading.strain=30 %", "output.history_lines=60",
+         SNAPSHOTS])
+CELLS = "numerics.formulation=total_lagrangian"
+# Earlywood, pressed until its lumens are closed.
+CROP = (INPUTS / "wood" / "loblolly_radial.yaml",
+        ["specimen={micrograph: loblolly.bmp, image_size: [0.208 mm, 0.161838 mm], threshold: 150, "
+         "crop: [40, 60, 90, 70]}", "grid.cells=[19, 15]", "loading.speed=100 m/s",
+         "loading.strain=60 %", "output.history_lines=60", "output.snapshots=0"])
+STRIP = (pathlib.Path(__file__).parent / "scenes" / "torn_strip.yaml", [])
+WOOD = (INPUTS / "wood" / "ponderosa_tangential.yaml",
+        ["loading.strain=6 %", "loading.speed=20 m/s", "loading.ramp_time=0 s", "grid.cells=[50, 64]",
+         "numerics.formulation=updated_lagrangian", "numerics.repartition_interval=40",
+         "output.history_lines=100", "output.snapshots.strains=[0 %, 1 %]",
+         "output.fields=[velocity, stress, id, rank]"])
+BAR = (INPUTS / "benchmarks" / "vibrating_bar.yaml", ["output.history_lines=50"])
+
+# By the clock, or of the folder.
+NOT_REPEATED = {"name", "results"}
+
+
+def words_of(settings):
+    return [word for setting in settings for word in ("--set", setting)]
+
+
+def files_of(folder):
+    found = {path.name: path.read_bytes()
+             for path in [*folder.glob("*.csv"), *folder.glob("*.xdmf"), *folder.glob("snapshots/*.h5")]}
+    assert "history.csv" in found
+    return found
+
+
+def facts_of(folder):
+    """What of the summary does not depend on the clock."""
+    found = summary(folder)
+    return {key: value for key, value in found.items()
+            if "second" not in key and "ns_per" not in key and "bytes" not in key
+            and "messages" not in key and key not in NOT_REPEATED}
+
+
+class Restart(ProgramTest):
+    def run_it(self, of, folder, *words, settings=(), ranks=1, status=0):
+        file, fixed = of
+        run = mpm_par(file, "--output", folder, *words_of([*fixed, *settings]), *words, ranks=ranks)
+        self.assertEqual(run.returncode, status, run.stderr + run.stdout)
+        return run
+
+    def whole(self, of, ranks=1, settings=()):
+        folder = self.folder / f"whole_{ranks}"
+        self.run_it(of, folder, settings=settings, ranks=ranks)
+        return folder
+
+    def checkpoints(self, folder):
+        return sorted((folder / "checkpoints").glob("*.h5"))
+
+    def expect_same(self, whole, folder):
+        expected, found = files_of(whole), files_of(folder)
+        self.assertEqual(expected.keys(), found.keys())
+        for name in expected:
+            self.assertTrue(expected[name] == found[name], f"{name} is not the same")
+        self.assertEqual(facts_of(whole), facts_of(folder))
+
+    def check_goes_on(self, of, steps, ranks=1, settings=()):
+        """From a run that a limit of steps has ended, and from one that went on once already."""
+        whole, folder = self.whole(of, ranks, settings), self.folder / f"parts_{ranks}"
+        every = [*settings, f"output.checkpoints={{steps: {steps}}}"]
+        first, second = int(1.5 * steps), int(2.5 * steps)
+        self.run_it(of, folder, settings=[*every, f"steps={first}"], ranks=ranks)
+        for end in (f"steps={second}", None):
+            run = self.run_it(of, folder, "--restart", settings=[*every, *([end] if end else [])],
+                              ranks=ranks)
+            self.assertIn("goes on from", run.stdout)
+        self.expect_same(whole, folder)
+
+    def test_cells_in_contact(self):
+        for ranks in 1, 2, 3:
+            self.check_goes_on(CROP, 1500, ranks)
+        self.assertGreater(History(self.folder / "parts_3")["contact_pairs"][-1], 100)
+
+    def test_cells_that_fail(self):
+        for ranks in 1, 2:
+            self.check_goes_on(STRIP, 700, ranks)
+
+    def test_fitted_cells(self):
+        self.check_goes_on(RING, 700, 2, [CELLS, "numerics.surface=fitted"])
+
+    def test_particles_while_borders_move(self):
+        for ranks in 1, 2:
+            self.check_goes_on(WOOD, 140, ranks)
+        self.assertGreater(summary(self.folder / "parts_2")["repartitions"], 3)
+
+    def test_exact_solution(self):
+        self.check_goes_on(BAR, 100)
+
+    def start(self, of, folder, settings, ranks=1):
+        command = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks)] if ranks > 1 else []
+        file, fixed = of
+        return subprocess.Popen([*command, os.environ["MPM_PAR"], file, "--output", folder,
+                                 *words_of([*fixed, *settings])],
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def wait_for_lines(self, folder, lines):
+        history = folder / "history.csv"
+        for _ in range(3000):
+            if history.exists() and history.read_bytes().count(b"\n") > lines:
+                return
+            time.sleep(0.01)
+        self.fail("no history")
+
+    def test_signals(self):
+        whole = {ranks: self.whole(RING, ranks, [CELLS]) for ranks in (1, 2)}
+        for ranks, what in (1, signal.SIGTERM), (1, signal.SIGINT), (2, signal.SIGUSR1):
+            folder = self.folder / f"{what.name}_{ranks}"
+            run = self.start(RING, folder, [CELLS], ranks)
+            self.wait_for_lines(folder, 10)
+            run.send_signal(what)
+            _, errors = run.communicate(timeout=60)
+            self.assertEqual(run.returncode, 75, errors)
+            self.assertIn(f"signal {what.value}. Go on with --restart.", errors)
+            self.assertEqual(len(self.checkpoints(folder)), 1)
+            self.assertFalse((folder / "summary.json").exists())
+            self.run_it(RING, folder, "--restart", settings=[CELLS], ranks=ranks)
+            self.expect_same(whole[ranks], folder)
+
+    def test_killed_at_any_moment(self):
+        settings = [CELLS, "output.checkpoints={steps: 20, keep: 3}"]
+        whole, folder = self.whole(RING, 1, [CELLS]), self.folder / "killed"
+        restart = []
+        for lines in 3, 9, 15, 21:
+            run = self.start(RING, folder, [*settings], 1) if not restart else subprocess.Popen(
+                [os.environ["MPM_PAR"], RING[0], "--output", folder, *restart,
+                 *words_of([*RING[1], *settings])], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.wait_for_lines(folder, lines)
+            time.sleep(0.003 * lines)
+            run.kill()
+            run.communicate()
+            self.assertGreater(len(self.checkpoints(folder)), 0)
+            restart = ["--restart"]
+        self.run_it(RING, folder, "--restart", settings=settings)
+        self.expect_same(whole, folder)
+        self.assertEqual(len(self.checkpoints(folder)), 3)
+
+    def test_time_limit(self):
+        folder, settings = self.folder / "limited", [CELLS, "grid.cells=[40, 40]"]
+        run = self.run_it(RING, folder, "--time-limit", "0.3 s", settings=settings, status=75)
+        self.assertIn("the time limit was reached", run.stderr)
+        self.run_it(RING, folder, "--restart", settings=settings)
+        self.expect_same(self.whole(RING, 1, settings), folder)
+        for limit in "soon", "-1 s", "3 m":
+            run = self.run_it(RING, folder, "--restart", "--time-limit", limit, status=2)
+            self.assertIn("--time-limit is " + limit, run.stderr)
+
+    def begun(self, settings=()):
+        folder = self.folder / "begun"
+        self.run_it(RING, folder, settings=[CELLS, "steps=1500", "output.checkpoints={steps: 400, keep: 3}",
+                                            *settings])
+        self.assertEqual([path.name for path in self.checkpoints(folder)],
+                         ["000000000400.h5", "000000000800.h5", "000000001200.h5"])
+        return folder
+
+    def test_passes_over_what_is_not_whole(self):
+        whole, folder = self.whole(RING, 1, [CELLS]), self.begun()
+        first, second, third = self.checkpoints(folder)
+        bytes_of_second = bytearray(second.read_bytes())
+        bytes_of_second[len(bytes_of_second) // 2] ^= 4
+        second.write_bytes(bytes_of_second)
+        third.write_bytes(third.read_bytes()[:-5000])
+        (folder / "checkpoints" / "000000001600.h5.part").write_bytes(b"half")
+        run = self.run_it(RING, folder, "--restart", settings=[CELLS])
+        for file in second, third:
+            self.assertIn(str(file), run.stdout + run.stderr)
+        self.assertIn(f"goes on from {first}", run.stdout)
+        self.expect_same(whole, folder)
+
+    def test_says_why_it_cannot_go_on(self):
+        folder = self.begun()
+        before = files_of(folder)
+
+        def refused(*words, settings=(CELLS,), to=folder):
+            run = self.run_it(RING, to, *words, settings=settings, status=2)
+            self.assertEqual(files_of(folder), before)
+            return run.stderr
+
+        newest = self.checkpoints(folder)[-1]
+        text = refused("--restart", settings=[CELLS, "material.youngs_modulus=9 GPa", "grid.cells=[12, 14]"])
+        self.assertIn("grid.cells[0] was 14 and is 12; ", text)
+        self.assertIn("youngs_modulus was 10 GPa and is 9 GPa", text)
+        self.assertIn("Replace them with --overwrite, go on with that run with --restart", refused())
+        self.assertIn("there is no checkpoint", refused("--restart", to=self.folder / "empty"))
+        for file in self.checkpoints(folder):
+            file.write_bytes(file.read_bytes()[:1000])
+        text = refused("--restart")
+        self.assertIn(str(newest), text)
+        self.assertIn("There is no other checkpoint", text)
+        self.run_it(RING, folder, "--overwrite", settings=[CELLS, "steps=100"])
+        self.assertEqual(self.checkpoints(folder), [])
+
+    def test_takes_the_one_that_is_named_and_another_end(self):
+        folder = self.begun()
+        second = self.checkpoints(folder)[1]
+        run = self.run_it(RING, folder, "--restart", second,
+                          settings=[CELLS, "loading.strain=33 %", "output.fields=[velocity]"])
+        self.assertIn(f"goes on from {second}", run.stdout)
+        self.assertEqual(History(folder)["strain"][-1], 0.33)
+
+
+if __name__ == "__main__":
+    unittest.main()

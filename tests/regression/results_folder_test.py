@@ -1,0 +1,115 @@
+"""What a run does with a folder that is not empty: nothing of another run or of the user's own is lost
+without being asked for, and nothing of two runs is mixed."""
+import os
+import pathlib
+import shutil
+import unittest
+
+from program import ProgramTest, mpm_par, scene
+
+QUICK = ["--set", "output.history_lines=4", "--set", "steps=40"]
+WHOLE = ["--set", "output.history_lines=4"]
+OF_A_RUN = ["exact_solution.csv", "history.csv", "scene.yaml", "specimen.png", "summary.json"]
+
+
+def all_of(folder):
+    return {str(path.relative_to(folder)): path.read_bytes()
+            for path in folder.rglob("*") if path.is_file()}
+
+
+class ResultsFolder(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.results_of_first = self.folder / "results"
+        self.bar = pathlib.Path(__file__).parents[2] / "inputs" / "benchmarks" / "vibrating_bar.yaml"
+
+    def run_it(self, *words, ranks=1, file=None, output=None, settings=QUICK):
+        return mpm_par(file or self.bar, "--output", output or self.results_of_first, *settings, *words,
+                       ranks=ranks)
+
+    def good(self, *words, **more):
+        run = self.run_it(*words, **more)
+        self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+        return run
+
+    def refused(self, *words, **more):
+        run = self.run_it(*words, **more)
+        self.assertEqual(run.returncode, 2, run.stderr + run.stdout)
+        message, *rest = run.stderr.strip().splitlines()
+        self.assertTrue(not rest or set(rest[0]) == {"-"}, f"more than the launcher's own: {run.stderr}")
+        return message
+
+    def test_results_of_another_run_stay_unless_told_otherwise(self):
+        self.good()
+        before = all_of(self.results_of_first)
+        for ranks in 1, 2:
+            self.assertIn("holds the results of a run. Replace them with --overwrite, go on with that run "
+                          "with --restart, or choose another folder with --output.",
+                          self.refused(ranks=ranks))
+        self.assertEqual(all_of(self.results_of_first), before)
+        for name in OF_A_RUN:
+            alone = self.folder / name.replace(".", "_")
+            alone.mkdir()
+            (alone / name).write_text("something")
+            self.refused(output=alone)
+            self.assertEqual(all_of(alone), {name: b"something"})
+
+    def test_check_needs_no_folder(self):
+        self.good()
+        before = all_of(self.results_of_first)
+        self.good("--check")
+        self.assertEqual(all_of(self.results_of_first), before)
+
+    def test_overwrite_takes_away_what_was_of_the_other_run_and_nothing_else(self):
+        self.good("--set", "output.snapshots=6", "--set", "output.checkpoints={steps: 20, keep: 9}",
+                  settings=WHOLE)
+        folder = self.results_of_first
+        self.assertTrue((folder / "snapshots" / "000005.h5").exists())
+        self.assertTrue((folder / "checkpoints").exists())
+        mine = {"notes.txt", "snapshots/mine.txt", "curve.png"}
+        for name in mine:
+            (folder / name).write_text("mine")
+        (folder / "snapshots" / "000009.h5.part").write_text("half")
+        self.good("--overwrite", "--set", "output.snapshots=2", settings=WHOLE)
+        fresh = self.folder / "fresh"
+        self.good("--set", "output.snapshots=2", output=fresh, settings=WHOLE)
+        self.assertEqual(set(all_of(folder)), set(all_of(fresh)) | mine)
+        self.assertEqual((folder / "history.csv").read_bytes(), (fresh / "history.csv").read_bytes())
+
+    def test_a_run_that_broke_off_leaves_no_summary_of_the_one_before(self):
+        self.good()
+        run = self.run_it("--overwrite", "--time-limit", "1 us", settings=[])
+        self.assertEqual(run.returncode, 75, run.stderr)
+        self.assertFalse((self.results_of_first / "summary.json").exists())
+
+    def test_a_scene_in_the_folder_of_its_results_is_not_replaced(self):
+        own = self.folder / "own"
+        own.mkdir()
+        shutil.copy(self.bar, own / "scene.yaml")
+        before = all_of(own)
+        for words in [], ["--overwrite"]:
+            self.assertIn("the run reads this file, and would write its scene.yaml there",
+                          self.refused(*words, file=own / "scene.yaml", output=own))
+        self.assertEqual(all_of(own), before)
+        # An effective scene is what it would be replaced by.
+        self.good()
+        history = (self.results_of_first / "history.csv").read_bytes()
+        self.good("--overwrite", file=self.results_of_first / "scene.yaml", settings=[])
+        self.assertEqual((self.results_of_first / "history.csv").read_bytes(), history)
+
+    def test_a_folder_that_cannot_be_made_or_written(self):
+        file = self.folder / "file"
+        file.write_text("")
+        run = self.run_it(output=file / "results")
+        self.assertEqual(run.returncode, 4, run.stderr)
+        self.assertIn(str(file / "results"), run.stderr)
+        if os.geteuid() == 0:
+            return  # root may write anywhere
+        self.folder.chmod(0o500)
+        self.addCleanup(self.folder.chmod, 0o700)
+        run = self.run_it()
+        self.assertEqual(run.returncode, 4, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
