@@ -13,3 +13,19 @@ function(mpm_find_python variable modules)
     endif()
   endforeach()
 endfunction()
+
+# mpm_python_program(<name>): the launcher <name>.in of this folder becomes a program of the build, which
+# starts <name>.py here, and one of the installation, with the folder's modules; there
+# @MPM_PYTHON_FOLDER@ is relative to the launcher's own $here.
+function(mpm_python_program name)
+  set(executable FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
+                                  WORLD_READ WORLD_EXECUTE)
+  set(MPM_PYTHON_FOLDER ${CMAKE_CURRENT_SOURCE_DIR})
+  configure_file(${name}.in ${CMAKE_BINARY_DIR}/${name} @ONLY ${executable})
+  file(RELATIVE_PATH to_data ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR})
+  set(MPM_PYTHON_FOLDER "$here/${to_data}/mpm_par/${name}")
+  configure_file(${name}.in ${CMAKE_CURRENT_BINARY_DIR}/${name} @ONLY ${executable})
+  install(PROGRAMS ${CMAKE_CURRENT_BINARY_DIR}/${name} DESTINATION ${CMAKE_INSTALL_BINDIR})
+  file(GLOB modules CONFIGURE_DEPENDS *.py)
+  install(FILES ${modules} DESTINATION ${CMAKE_INSTALL_DATADIR}/mpm_par/${name})
+endfunction()

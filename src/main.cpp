@@ -4,8 +4,10 @@
 #include <mpm/parallel/session.hpp>
 #include <mpm/scene/command_line.hpp>
 #include <mpm/scene/reader.hpp>
+#include <mpm/simulation/leave_report.hpp>
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/run.hpp>
+#include <mpm/simulation/self_test.hpp>
 
 #include <cstdio>
 #include <optional>
@@ -17,28 +19,45 @@ namespace {
 
 using namespace mpm;
 
+/// Starting thousands of ranks takes a minute on some machines.
+constexpr int seconds_of_a_check = 180;
+
 void print_once(const std::string& text)
 {
   if (rank_of(MPI_COMM_WORLD) == 0) fmt::print("{}", text);
 }
 
+/// How the program ends, on this rank.
+struct Ending {
+  int status = int(ExitStatus::done);
+  std::string message{};            ///< what was wrong; empty if nothing was
+  std::filesystem::path results{};  ///< of a run that has begun; empty without one
+};
+
 template <int Dim>
 void plan_and_run(const scene::CommandLine& command_line, const scene::Scene& scene,
-                  std::optional<micrograph::Picture> picture)
+                  std::optional<micrograph::Picture> picture, Ending& ending)
 {
   const Preparation<Dim> preparation(MPI_COMM_WORLD, scene, std::move(picture));
-  print_once(plan_text(preparation));
-  if (!command_line.ranks.empty() && rank_of(MPI_COMM_WORLD) == 0)
-    print_once(rank_study_text(preparation, command_line.ranks));
+  if (rank_of(MPI_COMM_WORLD) == 0) {
+    if (command_line.quiet) {
+      for (const std::string& warning : preparation.warnings) spdlog::warn(warning);
+    } else {
+      fmt::print("{}", plan_text(preparation));
+      if (!command_line.ranks.empty())
+        fmt::print("{}", rank_study_text(preparation, command_line.ranks));
+    }
+  }
   if (command_line.check) return;
   std::vector<std::filesystem::path> pictures;
   if (scene.specimen.micrograph) pictures.push_back(scene.specimen.micrograph->file);
-  run_in_folder(preparation, {scene::results_folder(command_line, scene), command_line.restart,
-                              command_line.checkpoint, command_line.overwrite,
-                              command_line.time_limit, command_line.scene, std::move(pictures)});
+  ending.results = scene::results_folder(command_line, scene);
+  run_in_folder(preparation, {ending.results, command_line.restart, command_line.checkpoint,
+                              command_line.overwrite, command_line.time_limit, command_line.scene,
+                              std::move(pictures), command_line.quiet});
 }
 
-void read_and_run(const scene::CommandLine& command_line)
+void read_and_run(const scene::CommandLine& command_line, Ending& ending)
 {
   scene::Scene scene;
   std::optional<micrograph::Picture> picture;
@@ -48,42 +67,66 @@ void read_and_run(const scene::CommandLine& command_line)
     picture = micrograph::read_picture(scene);
   });
   if (scene.dimensions == 2)
-    plan_and_run<2>(command_line, scene, std::move(picture));
+    plan_and_run<2>(command_line, scene, std::move(picture), ending);
   else
-    plan_and_run<3>(command_line, scene, std::move(picture));
+    plan_and_run<3>(command_line, scene, std::move(picture), ending);
 }
 
-int report(ExitStatus status, const char* what)
+void report(Ending& ending, ExitStatus status, const char* what)
 {
-  if (rank_of(MPI_COMM_WORLD) == 0) {
-    std::fflush(stdout);
-    fmt::print(stderr, "{}\n", what);
-  }
-  return int(status);
+  ending.status = int(status);
+  ending.message = what;
+  if (rank_of(MPI_COMM_WORLD) != 0) return;
+  std::fflush(stdout);
+  fmt::print(stderr, "{}\n", what);
 }
 
-int run(const std::variant<scene::CommandLine, scene::Answer>& asked)
+/// Status 1: something is wrong that is no run's.
+int test_machine(const scene::CommandLine& command_line, const std::optional<Launched>& launched,
+                 SelfTestLimit& limit)
 {
+  const SelfTestRequest request{command_line.output.value_or(std::filesystem::current_path()),
+                                command_line.quiet, launched};
+  return self_test(MPI_COMM_WORLD, request, limit) ? 0 : 1;
+}
+
+Ending run(const std::variant<scene::CommandLine, scene::Answer>& asked,
+           const std::optional<Launched>& launched, std::optional<SelfTestLimit>& limit)
+{
+  Ending ending;
   try {
-    if (const auto* answer = std::get_if<scene::Answer>(&asked))
+    if (const auto* answer = std::get_if<scene::Answer>(&asked)) {
       print_once(answer->text);
+      return ending;
+    }
+    const auto& command_line = std::get<scene::CommandLine>(asked);
+    if (command_line.self_test)
+      ending.status = test_machine(command_line, launched, *limit);
     else
-      read_and_run(std::get<scene::CommandLine>(asked));
-    return int(ExitStatus::done);
+      read_and_run(command_line, ending);
   } catch (const InputError& error) {
-    return report(ExitStatus::bad_input, error.what());
+    report(ending, ExitStatus::bad_input, error.what());
   } catch (const NumericalError& error) {
-    return report(ExitStatus::numerical_failure, error.what());
+    report(ending, ExitStatus::numerical_failure, error.what());
   } catch (const Interruption& interruption) {
-    return report(ExitStatus::interrupted, interruption.what());
+    report(ending, ExitStatus::interrupted, interruption.what());
   } catch (const FileError& error) {
-    return report(ExitStatus::file_failure, error.what());
+    report(ending, ExitStatus::file_failure, error.what());
   } catch (const std::exception& error) {
     // Not foreseen, and perhaps on this rank only: the others must not wait for it.
     fmt::print(stderr, "rank {}: {}\n", rank_of(MPI_COMM_WORLD), error.what());
     MPI_Abort(MPI_COMM_WORLD, 1);
-    return 1;
   }
+  return ending;
+}
+
+bool leaves_report(const std::variant<scene::CommandLine, scene::Answer>& asked,
+                   const Ending& ending)
+{
+  const auto* command_line = std::get_if<scene::CommandLine>(&asked);
+  return command_line && command_line->report && !ending.results.empty() &&
+         ending.status != int(ExitStatus::bad_input) &&
+         ending.status != int(ExitStatus::file_failure);
 }
 
 }  // namespace
@@ -93,15 +136,32 @@ int main(int argc, char** argv)
   std::variant<scene::CommandLine, scene::Answer> asked;
   std::string wrong_usage;
   std::vector<std::string> petsc;
+  std::optional<SelfTestLimit> limit;
+  const std::optional<Launched> from = launched();
   try {
     asked = scene::parse_command_line({argv + 1, argv + argc}, version_text());
-    if (const auto* command_line = std::get_if<scene::CommandLine>(&asked))
+    if (const auto* command_line = std::get_if<scene::CommandLine>(&asked)) {
       petsc = command_line->petsc;
+      if (command_line->self_test) limit.emplace(seconds_of_a_check, "start of MPI");
+    }
   } catch (const InputError& error) {
     wrong_usage = error.what();
   }
-  const Session session(argc, argv, petsc);
-  spdlog::set_pattern("%l: %v");
-  if (!wrong_usage.empty()) return report(ExitStatus::bad_input, wrong_usage.c_str());
-  return run(asked);
+  Ending ending;
+  int rank = 0;
+  {
+    const Session session(argc, argv, petsc);
+    rank = rank_of(MPI_COMM_WORLD);
+    spdlog::set_pattern("%l: %v");
+    if (wrong_usage.empty())
+      ending = run(asked, from, limit);
+    else
+      report(ending, ExitStatus::bad_input, wrong_usage.c_str());
+  }
+  if (!leaves_report(asked, ending)) return ending.status;
+  // A launcher ends all ranks once one of them ends with another status than 0, and rank 0 would
+  // not come to the end of its report: the status is its to give.
+  if (rank != 0) return int(ExitStatus::done);
+  leave_report(ending.results, ending.message);
+  return ending.status;
 }

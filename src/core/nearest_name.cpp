@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <vector>
 
 namespace mpm {
@@ -38,6 +39,9 @@ std::optional<std::string> nearest_name(std::string_view word, std::span<const s
   std::optional<std::string> nearest;
   int fewest = std::max(1, static_cast<int>(word.size()) / 3) + 1;
   for (const std::string& name : names) {
+    // Each letter that one has more is a change: most names need no table.
+    const int more = std::abs(int(word.size()) - int(name.size()));
+    if (more >= std::min(fewest, int(name.size()))) continue;
     const int changes = edit_distance(word, name);
     if (changes < fewest && changes < static_cast<int>(name.size())) {
       fewest = changes;

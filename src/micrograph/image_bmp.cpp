@@ -62,6 +62,10 @@ Header header_of(std::span<const std::uint8_t> bytes)
     if (header.colours == 0) header.colours = std::size_t(1) << header.bits;
     if (header.table_at + 4 * header.colours > bytes.size()) throw damaged;
   }
+  if (header.pixels_at < header.table_at + 4 * header.colours)
+    throw InputError(fmt::format(
+        "is a damaged BMP (its pixels begin at byte {}, inside its header). Save it again.",
+        header.pixels_at));
   header.row_bytes = std::size_t((header.width * header.bits + 31) / 32 * 4);
   if (header.pixels_at + header.row_bytes * std::size_t(header.height) > bytes.size())
     throw damaged;

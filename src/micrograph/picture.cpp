@@ -71,7 +71,7 @@ std::optional<Picture> read_picture(const scene::Scene& scene)
   }
 }
 
-void throw_in_scene(const scene::Scene& scene, const char* error)
+void throw_in_scene(const scene::Scene& scene, const std::string& error)
 {
   if (scene.file.empty()) throw InputError(error);
   throw InputError(scene.file.string() + ": " + error);

@@ -1,10 +1,13 @@
 #include <mpm/core/error.hpp>
 #include <mpm/output/hdf5_file.hpp>
 #include <mpm/output/replace_file.hpp>
+#include <mpm/parallel/open_files.hpp>
 #include <mpm/parallel/session.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
@@ -44,6 +47,44 @@ bool attach(hid_t object, const std::string& name, const std::string& text)
   return attach(object, name, type, text.c_str());
 }
 
+std::filesystem::path file_in_writing;  // for those who have to say that it failed
+
+/// A rank whose write fails in the middle of a collective one leaves the others waiting for it for
+/// ever, in MPI (Open MPI 4: io/ompio) or in HDF5's own messages, and HDF5 1.10 crashes when it
+/// ends with a file that cannot be closed. So the rank that sees the failure says so and ends all.
+void end_all_ranks(const char* what, int error)
+{
+  char words[MPI_MAX_ERROR_STRING] = "fewer bytes than asked for";
+  int length = 0;
+  if (error != MPI_SUCCESS) MPI_Error_string(error, words, &length);
+  const int rank = rank_of(MPI_COMM_WORLD);
+  std::error_code ignored;
+  std::filesystem::remove(temporary_name(file_in_writing), ignored);
+  fmt::print(stderr, "{}: {} failed{} ({}). Check free space, quota and disk.\n",
+             file_in_writing.string(), what, rank > 0 ? fmt::format(" on rank {}", rank) : "",
+             words);
+  std::fflush(nullptr);
+  if (ranks_of(MPI_COMM_WORLD) > 1) MPI_Abort(MPI_COMM_WORLD, int(ExitStatus::file_failure));
+  std::_Exit(int(ExitStatus::file_failure));
+}
+
+int expect_good(const char* what, int error)
+{
+  if (error != MPI_SUCCESS && !file_in_writing.empty()) end_all_ranks(what, error);
+  return error;
+}
+
+int expect_whole(int error, int count, MPI_Datatype type, const MPI_Status* status)
+{
+  expect_good("writing", error);
+  if (file_in_writing.empty() || status == MPI_STATUS_IGNORE) return error;
+  MPI_Count asked = 0, done = 0;
+  MPI_Type_size_x(type, &asked);
+  MPI_Get_elements_x(status, MPI_BYTE, &done);
+  if (done < asked * count) end_all_ranks("writing", MPI_SUCCESS);
+  return error;
+}
+
 }  // namespace
 
 Hdf5File::Hdf5File(MPI_Comm comm, std::filesystem::path file, Compression compression,
@@ -61,6 +102,7 @@ Hdf5File::Hdf5File(MPI_Comm comm, std::filesystem::path file, Compression compre
   H5Pset_coll_metadata_write(access, true);
   id_ = H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   agree(id_ < 0 ? "create the file" : "");
+  file_in_writing = file_;
   // Creating the file gave the room back.
   on_rank_zero(comm_, [&] { reserve_room(temporary_, expected_bytes); });
 }
@@ -69,8 +111,8 @@ Hdf5File::~Hdf5File()
 {
   if (finished_) return;
   // A file that cannot be written cannot be closed either, and HDF5 1.10 crashes when it ends after
-  // a failed close. Left open it is closed at the end of MPI, by then with room for the little that
-  // HDF5 still wants to write, because the file is emptied here before its name goes.
+  // a failed close. What it holds is given back here, its name first.
+  if (id_ >= 0) leave_files_open();
   int rank = 0;
   MPI_Comm_rank(comm_, &rank);
   std::error_code ignored;
@@ -183,6 +225,7 @@ void Hdf5File::finish()
   // Syncs what each rank wrote on its own node; rank 0 below can only sync its own.
   agree(H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0 ? "sync the file" : "");
   agree(H5Fclose(id_) < 0 ? "close the file" : "");
+  file_in_writing.clear();
   on_rank_zero(comm_, [this] { rename_when_synced(temporary_, file_); });
   finished_ = true;
 }
@@ -197,3 +240,33 @@ void Hdf5File::agree(const std::string& problem) const
 }
 
 }  // namespace mpm::output
+
+// MPI's profiling interface: HDF5's calls come by here. Open MPI 4 tells of a failed write by a
+// short count alone, and HDF5 of neither before its ranks wait for each other.
+extern "C" {
+
+int MPI_File_write_at(MPI_File file, MPI_Offset at, const void* from, int count, MPI_Datatype type,
+                      MPI_Status* status)
+{
+  const int error = PMPI_File_write_at(file, at, from, count, type, status);
+  return mpm::output::expect_whole(error, count, type, status);
+}
+
+int MPI_File_write_at_all(MPI_File file, MPI_Offset at, const void* from, int count,
+                          MPI_Datatype type, MPI_Status* status)
+{
+  const int error = PMPI_File_write_at_all(file, at, from, count, type, status);
+  return mpm::output::expect_whole(error, count, type, status);
+}
+
+int MPI_File_sync(MPI_File file)
+{
+  return mpm::output::expect_good("syncing", PMPI_File_sync(file));
+}
+
+int MPI_File_set_size(MPI_File file, MPI_Offset size)
+{
+  return mpm::output::expect_good("sizing", PMPI_File_set_size(file, size));
+}
+
+}  // extern "C"

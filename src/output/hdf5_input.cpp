@@ -11,6 +11,11 @@ namespace mpm::output {
 Hdf5Input::Hdf5Input(std::filesystem::path file) : file_(std::move(file))
 {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // its messages go into FileError instead
+  std::error_code ignored;
+  if (!std::filesystem::exists(file_, ignored))
+    throw FileError(file_.string() + ": there is no such file.");
+  if (H5Fis_hdf5(file_.c_str()) == 0)
+    throw FileError(file_.string() + ": is no HDF5 file, or one that was cut off.");
   id_ = H5Fopen(file_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id_ < 0) fail("open the file");
 }
@@ -18,6 +23,11 @@ Hdf5Input::Hdf5Input(std::filesystem::path file) : file_(std::move(file))
 Hdf5Input::~Hdf5Input()
 {
   if (id_ >= 0) H5Fclose(id_);
+}
+
+bool Hdf5Input::has_attribute(const std::string& name) const
+{
+  return H5Aexists(id_, name.c_str()) > 0;
 }
 
 std::int64_t Hdf5Input::attribute(const std::string& name) const

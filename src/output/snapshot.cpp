@@ -99,6 +99,7 @@ void SnapshotSeries::write(const Snapshot& snapshot)
   file.set_attribute("time", snapshot.time);
   file.set_attribute("strain", snapshot.strain);
   file.set_attribute("step", snapshot.step);
+  file.set_attribute("particle_volume", snapshot.particle_volume);
   file.create_group("/particles");
   if (entry.connectivity == NumberType::int32)
     write_connectivity<std::int32_t>(file, before, mine);

@@ -33,9 +33,10 @@ std::int64_t StateEntry::before(int rank) const
 
 std::map<std::string, StateEntry> state_entries(const Hdf5Input& input)
 {
+  if (!input.has_attribute("state_format")) not_whole(input, "something else wrote it");
   if (const std::int64_t found = input.attribute("state_format"); found != state_format)
     not_whole(input, fmt::format("its format is {}, not {}", found, state_format));
-  input.attribute("complete");
+  if (!input.has_attribute("complete")) not_whole(input, "writing it did not come to an end");
   const std::int64_t ranks = input.attribute("ranks");
   if (ranks < 1 || input.rows("/parts") != ranks) not_whole(input, "parts are missing");
   const auto names = input.read_rows<std::uint8_t>("/names", 0, input.rows("/names"));

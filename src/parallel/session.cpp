@@ -1,6 +1,8 @@
 #include <mpm/core/error.hpp>
+#include <mpm/parallel/open_files.hpp>
 #include <mpm/parallel/session.hpp>
 
+#include <csignal>
 #include <numeric>
 #include <string>
 
@@ -10,6 +12,8 @@ namespace mpm {
 
 Session::Session(int argc, char** argv, const std::vector<std::string>& petsc_options)
 {
+  // Beyond a limit of size (ulimit -f) a write fails with words, instead of ending the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   MPI_Init(&argc, &argv);
   PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr);
   std::vector<std::string> words{argv[0]};
@@ -24,6 +28,7 @@ Session::Session(int argc, char** argv, const std::vector<std::string>& petsc_op
 
 Session::~Session()
 {
+  if (files_are_left_open()) end_with_open_files();
   PetscFinalize();
   MPI_Finalize();
 }

@@ -87,8 +87,6 @@ void check_run(const Checked& checked)
                                 scene.name.find('/') != std::string::npos))
     checked.refuse("name", "it names a folder", "Use letters, digits, - and _");
 
-  checked.both_given("grid.spacing", "grid.cells");
-  checked.both_given("free_motion", "loading");
   if (!checked.given("loading") && !checked.given("free_motion") && checked.sound("free_motion"))
     checked.miss("loading", "what moves the specimen",
                  "Add loading: {piston: right, speed: 10 m/s}, or free_motion: {end_time: 1 ms}");

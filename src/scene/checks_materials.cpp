@@ -38,7 +38,6 @@ void check_failure(const Checked& checked, const Material& material, const std::
 
 void check_materials(const Checked& checked)
 {
-  checked.both_given("materials", "material");
   const std::vector<Material>& materials = checked.scene.materials;
   if (checked.given("material") && checked.given("materials")) return;
   if (materials.empty() && checked.given("materials")) {

@@ -44,8 +44,6 @@ void check_micrograph(const Checked& checked, const Micrograph& micrograph)
     checked.refuse("specimen.micrograph", micrograph.file.string() + " is not a file",
                    "Name a BMP, PNG or TIFF picture");
 
-  checked.both_given("specimen.pixel_size", "specimen.image_size");
-  checked.both_given("specimen.target_relative_density", "specimen.threshold");
   if (micrograph.crop) {
     for (const int i : {2, 3}) {
       if ((*micrograph.crop)[static_cast<std::size_t>(i)] < 1)

@@ -24,7 +24,7 @@ bool starts_option(const std::string& word)
 
 struct Options {
   CommandLine command_line;
-  bool reference = false;
+  bool reference = false, schema = false;
   std::string time_limit;
   CLI::App app{"Material point method: crushes a specimen read from a micrograph."};
 
@@ -36,7 +36,7 @@ struct Options {
     app.add_option("scene", command_line.scene, "Scene file (YAML)");
     app.add_flag("--check", command_line.check, "Read the scene, print the plan, run nothing");
     app.add_option("--ranks", command_line.ranks,
-                   "With the plan: balance and messages on so many ranks, without running on them")
+                   "With the plan: balance and messages on so many\nranks, without running on them")
         ->type_name("P[,P...]")
         ->delimiter(',')
         ->check(CLI::Range(1, 1 << 20))
@@ -44,18 +44,23 @@ struct Options {
     app.add_option("-o,--output", command_line.output, "Folder of results (results/NAME)")
         ->type_name("DIR");
     app.add_flag("--restart", command_line.restart,
-                 "Go on from the newest checkpoint in the folder of results; from FILE with "
-                 "--restart FILE.h5");
+                 "Go on from the newest checkpoint in the folder of\n"
+                 "results; from FILE with --restart FILE.h5");
     app.add_flag("--overwrite", command_line.overwrite,
-                 "Start anew in a folder that holds the results of a run");
+                 "Start anew in a folder with results of a run");
     app.add_option("--time-limit", time_limit,
-                   "End with a checkpoint and status 75 after so long, such as \"11.5 h\"")
+                   "End with a checkpoint and status 75 after so\nlong, such as \"11.5 h\"")
         ->type_name("DURATION");
+    app.add_flag("--report", command_line.report, "Leave a page of the run, report.html");
     app.add_option("--set", command_line.overrides,
-                   "Change a key of the scene for this run; may be repeated")
+                   "Change a key of the scene for this run; may be\nrepeated")
         ->type_name("PATH=VALUE")
         ->allow_extra_args(false);
+    app.add_flag("--quiet", command_line.quiet, "Print nothing but warnings and errors");
+    app.add_flag("--self-test", command_line.self_test,
+                 "Without a scene, in 10 s: do ranks, files and\nspeed on this machine work?");
     app.add_flag("--input-reference", reference, "Print the reference of all keys");
+    app.add_flag("--input-schema", schema, "Print the JSON schema of scenes, for editors");
   }
 
   std::vector<std::string> names() const
@@ -122,11 +127,24 @@ void take_continuation(Options& options)
   try {
     given.time_limit = to_si(options.time_limit, Quantity::time);
   } catch (const UnitError& error) {
-    throw InputError(fmt::format("--time-limit is {} ({}).", options.time_limit, error.what()));
+    throw InputError(fmt::format("--time-limit is {} ({}). Write e.g. \"11.5 h\".",
+                                 options.time_limit, error.what()));
   }
   if (!(*given.time_limit > 0))
     throw InputError(fmt::format("--time-limit is {} (must be above 0). Write e.g. \"11.5 h\".",
                                  options.time_limit));
+}
+
+/// It has scenes of its own.
+void refuse_beside_self_test(const CLI::App& app)
+{
+  for (const std::string other :
+       {"scene", "--check", "--ranks", "--restart", "--overwrite", "--time-limit", "--set"})
+    if (app.count(other) > 0)
+      throw InputError(
+          fmt::format("{} does not go with --self-test, which has scenes of its own. "
+                      "Leave one of them away.",
+                      other[0] == '-' ? other : "a " + other));
 }
 
 }  // namespace
@@ -146,16 +164,22 @@ std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::stri
   } catch (const CLI::ParseError& error) {
     throw InputError(fmt::format("{}. See mpm_par --help.", error.what()));
   }
-  if (options.reference) {
+  if (options.reference || options.schema) {
     std::ostringstream page;
-    write_input_reference(page);
+    options.reference ? write_input_reference(page) : write_input_schema(page);
     return Answer{page.str()};
   }
   take_continuation(options);
+  if (options.command_line.self_test) {
+    refuse_beside_self_test(options.app);
+    return std::move(options.command_line);
+  }
   if (options.command_line.scene.empty())
     throw InputError("no scene named. Write mpm_par scene.yaml, or see mpm_par --help.");
   if (!options.command_line.ranks.empty() && !options.command_line.check)
     throw InputError("--ranks belongs to --check. Start a run with mpirun -n RANKS.");
+  if (options.command_line.report && options.command_line.check)
+    throw InputError("--report is of a run, and --check runs nothing. Give one of them.");
   return std::move(options.command_line);
 }
 

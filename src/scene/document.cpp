@@ -1,4 +1,5 @@
 #include <mpm/core/error.hpp>
+#include <mpm/core/printable.hpp>
 #include <mpm/core/units.hpp>
 #include <mpm/scene/document.hpp>
 
@@ -16,16 +17,6 @@ std::string Place::text() const
 {
   return line > 0 ? fmt::format("{}:{}:{}", origin, line, column) : origin;
 }
-
-namespace {
-/// A message is one line, however long the value.
-std::string shortened(std::string text)
-{
-  constexpr std::size_t longest = 60;
-  std::ranges::replace(text, '\n', ' ');
-  return text.size() > longest ? text.substr(0, longest) + "..." : text;
-}
-}  // namespace
 
 Node Node::of(std::string plain_scalar)
 {
@@ -165,8 +156,10 @@ Node read_document(const std::filesystem::path& file)
   if (root.kind == Node::Kind::nothing)
     throw InputError(name + ": is empty. A scene needs at least 'specimen' and 'loading'.");
   if (root.kind != Node::Kind::map)
-    throw InputError(fmt::format("{}: the scene is {} (must be a map of keys).", root.place.text(),
-                                 root.shown()));
+    throw InputError(
+        fmt::format("{}: the scene is {} (must be a map of keys). Begin with e.g. "
+                    "'specimen:' and 'loading:'.",
+                    root.place.text(), root.shown()));
   root.place = {name, 1, 1};
   return root;
 }

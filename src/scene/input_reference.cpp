@@ -33,6 +33,26 @@ loading:
 - `--set path.to.key=value` changes a key for one run: `--set loading.speed='5 m/s'`,
   `--set materials[0].density='1400 kg/m^3'`.
 - The folder of results holds the scene with every default filled in.
+
+## Help while you type
+
+`docs/scene.schema.json`, which `mpm_par --input-schema` prints, tells editors what a scene may hold. One
+with a YAML language server (VS Code with the extension *YAML* of Red Hat, Neovim, Emacs, Kate) then offers
+keys and words, shows what they mean, and marks what is wrong. Name it in the scene's first line, by its path
+from the scene's folder:
+
+```yaml
+# yaml-language-server: $schema=../../docs/scene.schema.json
+```
+
+or, in VS Code, for all scenes of a folder in its settings:
+
+```json
+{"yaml.schemas": {"docs/scene.schema.json": ["inputs/wood/*l.yaml", "my_scenes/*.yaml"]}}
+```
+
+The schema takes all that `mpm_par` takes, and more: it knows no units, no formulas, no names of materials and
+not whether a scene lies in the plane. `mpm_par --check` has the last word.
 )";
 
 template <class Owner>
@@ -89,7 +109,7 @@ void write_input_reference(std::ostream& out)
   write_words<SideRow>(out, "sides");
   write_sections<MovingSide, Load>(out);
   write_words<LoadRow>(out, "kind");
-  write_sections<ExactSolution, OutputKeys>(out);
+  write_sections<BodyContact, ExactSolution, OutputKeys>(out);
   write_section<SnapshotKeys>(out, snapshots_section);
   write_sections<Checkpoints>(out);
 }

@@ -149,7 +149,8 @@ Parameter<Owner> row_of_values(const KindParameter& p)
             if (found && is_empty(*found)) return Node{};
             if (found) take(*found, value);
             return Value<T>::write(value, here);
-          }};
+          },
+          [rule] { return Value<T>::schema(rule); }};
 }
 
 template <class Owner>
@@ -168,7 +169,8 @@ Parameter<Owner> row_of_words(const KindParameter& p)
           },
           [p](const Owner& owner, int) {
             return Node::of(std::get<std::string>(*value_of(owner.values, p)));
-          }};
+          },
+          [p] { return words_schema(p.choices); }};
 }
 
 template <class Owner>

@@ -1,4 +1,5 @@
 #include <mpm/core/error.hpp>
+#include <mpm/core/printable.hpp>
 #include <mpm/scene/document.hpp>
 
 #include "yaml_tree.hpp"
@@ -26,7 +27,7 @@ void reach_single_material(const Node& root, std::vector<std::string>& steps)
 
 void apply_override(Node& root, const std::string& assignment)
 {
-  const std::string origin = "--set " + assignment;
+  const std::string origin = "--set " + shortened(assignment, 120);
   const std::size_t equals = assignment.find('=');
   std::vector<std::string> steps = split_path(assignment.substr(0, equals));
   if (equals == std::string::npos || steps.empty() || list_index(steps[0]))
@@ -40,16 +41,17 @@ void apply_override(Node& root, const std::string& assignment)
   for (const std::string& step : steps) {
     if (const auto index = list_index(step)) {
       if (*index >= node->items.size())
-        throw InputError(fmt::format("{}: there is no {}{} ({} has {} entries).", origin, path,
-                                     step, path, node->items.size()));
+        throw InputError(fmt::format("{}: there is no {}{} ({} has {} entries). Count them from 0.",
+                                     origin, path, step, path, node->items.size()));
       node = &node->items[*index];
       path += step;
       continue;
     }
     if (node->kind == Node::Kind::nothing) node->kind = Node::Kind::map;
+    if (node->place.origin.empty()) node->place = {origin};  // a map that this option makes
     if (node->kind != Node::Kind::map)
-      throw InputError(
-          fmt::format("{}: {} is {} (has no key '{}').", origin, path, node->shown(), step));
+      throw InputError(fmt::format("{}: {} is {} (has no key '{}'). Set {} as a whole.", origin,
+                                   path, node->shown(), step, path));
     if (node->find(step) == nullptr) node->entries.push_back({step, {origin}, {}});
     node = &node->find(step)->value;
     path += (path.empty() ? "" : ".") + step;

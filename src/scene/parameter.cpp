@@ -1,4 +1,5 @@
 #include <mpm/core/nearest_name.hpp>
+#include <mpm/core/printable.hpp>
 #include <mpm/scene/parameter.hpp>
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ std::vector<std::string> check_keys(const Given& given, const std::vector<std::s
       // Under the key it was meant for, so that nobody reports that one as missing.
       given.problems.add(
           entry.place, joined(given.path, nearest.value_or(entry.key)),
-          fmt::format("unknown key '{}' ({})", entry.key, suggestion(entry.key, known)));
+          fmt::format("unknown key '{}' ({})", shortened(entry.key), suggestion(entry.key, known)));
       meant.push_back(nearest.value_or(""));
     } else if (const Entry* first = given.node.find(entry.key); first != &entry) {
       given.problems.add(
@@ -35,6 +36,14 @@ void report_foreign(const Given& map, const Entry& entry, const std::string& bel
                                entry.value.shown(), belongs_to));
 }
 
+void report_excluded(const Given& map, const Entry& entry, const Entry& other)
+{
+  const std::string path = joined(map.path, entry.key);
+  map.problems.add(entry.value.place, path,
+                   fmt::format("{} does not go with {} (given at {}). Keep one of them.", path,
+                               joined(map.path, other.key), other.value.place.text()));
+}
+
 void report_missing(const Given& map, const std::string& key, const std::string& help,
                     const std::string& type)
 {
@@ -51,6 +60,13 @@ std::string link_to(std::string_view section)
   std::string anchor(section);
   std::ranges::replace(anchor, ' ', '-');
   return fmt::format("a map: [{}](#{})", section, anchor);
+}
+
+std::string schema_reference(std::string_view section)
+{
+  std::string name(section);
+  std::ranges::replace(name, ' ', '_');
+  return "#/definitions/" + name;
 }
 
 }  // namespace mpm::scene

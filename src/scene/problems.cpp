@@ -8,9 +8,15 @@
 
 namespace mpm::scene {
 
+namespace {
+constexpr std::size_t most_shown = 20;   // fill a terminal
+constexpr std::size_t most_kept = 1000;  // a file that is no scene has them without end
+}  // namespace
+
 void Problems::add(const Place& place, const std::string& path, const std::string& text)
 {
-  found_.push_back({place, path, text});
+  ++count_;
+  if (found_.size() < most_kept) found_.push_back({place, path, text});
 }
 
 bool Problems::concern(std::string_view path) const
@@ -30,7 +36,12 @@ void Problems::throw_if_any() const
     return std::tuple(problem.place.line == 0, problem.place.line, problem.place.column);
   });
   std::vector<std::string> lines;
-  for (const Problem& problem : sorted) lines.push_back(problem.place.text() + ": " + problem.text);
+  for (const Problem& problem : sorted) {
+    if (lines.size() == most_shown) break;
+    lines.push_back(problem.place.text() + ": " + problem.text);
+  }
+  if (count_ > lines.size())
+    lines.push_back(fmt::format("and {} more problems. Mend these first.", count_ - lines.size()));
   throw InputError(lines);
 }
 
@@ -44,8 +55,7 @@ bool Given::refuse(const std::string& reason, const std::string& remedy) const
 
 Given Given::item(std::size_t index) const
 {
-  return {node.items[index], fmt::format("{}[{}]", path, index), problems,
-          definitions};
+  return {node.items[index], fmt::format("{}[{}]", path, index), problems, definitions};
 }
 
 Given Given::entry(const Entry& entry) const

@@ -2,6 +2,12 @@
 
 namespace mpm::scene {
 
+namespace {
+
+constexpr Bound snapshot_count = from_to(0, 100000);
+
+}  // namespace
+
 template <>
 const std::vector<Parameter<Grid>>& parameters<Grid>()
 {
@@ -11,10 +17,13 @@ const std::vector<Parameter<Grid>>& parameters<Grid>()
       member<G>("cells", &G::cells,
                 {.bound = at_least(2), .default_text = "150 along x, nearly square ones along y"},
                 "cells over the specimen along each axis"),
-      member<G>(
-          "spacing", &G::spacing,
-          {.quantity = length, .bound = above(0), .spread = true, .default_text = "from cells"},
-          "cell size, rounded so that whole cells fit"),
+      member<G>("spacing", &G::spacing,
+                {.quantity = length,
+                 .bound = above(0),
+                 .spread = true,
+                 .default_text = "from cells",
+                 .excludes = "cells"},
+                "cell size, rounded so that whole cells fit"),
       member<G>("particles_per_cell", &G::particles_per_cell, {.bound = from_to(1, 8)},
                 "material points per cell and direction"),
       member<G>(
@@ -237,7 +246,7 @@ const std::vector<Parameter<SnapshotKeys>>& parameters<SnapshotKeys>()
       member<S>("times", &S::times,
                 {.quantity = time, .bound = at_least(0), .default_text = "none"},
                 "beside the strains, or without a piston"),
-      member<S>("count", &S::count, {.bound = from_to(0, 100000), .default_text = "7"},
+      member<S>("count", &S::count, {.bound = snapshot_count, .default_text = "7"},
                 "evenly from start to end, without lists; 0: no snapshots"),
   };
   return rows;
@@ -246,7 +255,7 @@ const std::vector<Parameter<SnapshotKeys>>& parameters<SnapshotKeys>()
 bool Value<SnapshotKeys>::read(const Given& given, const Rule& rule, SnapshotKeys& keys)
 {
   if (given.node.kind != Node::Kind::scalar) return read_map(given, keys, rule.dimensions);
-  return Value<std::optional<int>>::read(given, {.bound = from_to(0, 100000)}, keys.count);
+  return Value<std::optional<int>>::read(given, {.bound = snapshot_count}, keys.count);
 }
 
 Node Value<SnapshotKeys>::write(const SnapshotKeys& keys, const Rule& rule)
@@ -257,6 +266,13 @@ Node Value<SnapshotKeys>::write(const SnapshotKeys& keys, const Rule& rule)
 std::string Value<SnapshotKeys>::describe(const Rule&)
 {
   return "how many, or " + link_to(snapshots_section);
+}
+
+Json Value<SnapshotKeys>::schema(const Rule&)
+{
+  return {{"anyOf",
+           {Value<int>::schema({.bound = snapshot_count}),
+            Json{{"$ref", schema_reference(snapshots_section)}}}}};
 }
 
 }  // namespace mpm::scene

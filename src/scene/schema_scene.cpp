@@ -5,7 +5,7 @@ namespace mpm::scene {
 namespace {
 
 template <class Motion>
-Parameter<SceneKeys> motion(std::string key, std::string help)
+Parameter<SceneKeys> motion(std::string key, std::string help, std::string excludes = "")
 {
   return property<std::optional<Motion>, SceneKeys>(
       std::move(key),
@@ -14,7 +14,7 @@ Parameter<SceneKeys> motion(std::string key, std::string help)
         return held != nullptr ? std::optional(*held) : std::nullopt;
       },
       [](SceneKeys& s, std::optional<Motion> value) { s.motion = *value; },
-      {.default_text = "none"}, std::move(help));
+      {.default_text = "none", .excludes = std::move(excludes)}, std::move(help));
 }
 
 }  // namespace
@@ -41,15 +41,15 @@ const std::vector<Parameter<SceneKeys>>& parameters<SceneKeys>()
           [](const S& s) {
             return s.materials.size() > 1 ? std::optional(s.materials) : std::nullopt;
           },
-          [](S& s, auto list) { s.materials = std::move(*list); }, {.default_text = "none"},
-          "several materials, each with a name"),
+          [](S& s, auto list) { s.materials = std::move(*list); },
+          {.default_text = "none", .excludes = "material"}, "several materials, each with a name"),
       member<S>("specimen", &S::specimen, {.need = Need::required}, "what is crushed"),
       member<S>("grid", &S::grid, {.default_text = "see there"}, "background grid"),
       member<S>("numerics", &S::numerics, {.default_text = "see there"}, "the method"),
       motion<Loading>("loading", "compression by a piston; this or free_motion is needed"),
-      motion<FreeMotion>(
-          "free_motion",
-          "motion from initial velocities, loads and moving sides, without a piston"),
+      motion<FreeMotion>("free_motion",
+                         "motion from initial velocities, loads and moving sides, without a piston",
+                         "loading"),
       member<S>("definitions", &S::definitions, {.default_text = "none"},
                 "names that formulas may use, each also in the ones below it"),
       member<S>("loads", &S::loads, {.default_text = "none"}, "forces from outside"),

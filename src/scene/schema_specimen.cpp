@@ -68,8 +68,8 @@ struct Value<ThresholdKey> {
       const Entry* entry = given.node.find(density_key);
       if (entry == nullptr) return given.refuse("needs the key " + density_key);
       key.rule = ThresholdRule::target_relative_density;
-      return Value<double>::read(given.entry(*entry),
-                                 {Quantity::fraction, relative_density}, key.value);
+      return Value<double>::read(given.entry(*entry), {Quantity::fraction, relative_density},
+                                 key.value);
     }
     key.rule = ThresholdRule::value;
     if (given.node.kind != Node::Kind::scalar || !split_number_and_unit(given.node.scalar))
@@ -89,6 +89,13 @@ struct Value<ThresholdKey> {
   static std::string describe(const Rule&)
   {
     return "a gray level of 0 to 255, `otsu` or `{" + density_key + ": 0.4}`";
+  }
+  static Json schema(const Rule& rule)
+  {
+    Json aimed{{"type", "object"}, {"additionalProperties", false}, {"required", {density_key}}};
+    aimed["properties"][density_key] =
+        Value<double>::schema({Quantity::fraction, relative_density});
+    return {{"anyOf", {words_schema({"otsu"}), Value<double>::schema(rule), aimed}}};
   }
 };
 
@@ -135,7 +142,8 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
                    {.quantity = length,
                     .bound = above(0),
                     .spread = true,
-                    .default_text = "from image_size or the TIFF's resolution"},
+                    .default_text = "from image_size or the TIFF's resolution",
+                    .excludes = "image_size"},
                    "width and height of a pixel"),
       image_member("depth", &I::depth,
                    {.quantity = length, .bound = above(0), .default_text = "none: in the plane"},
@@ -171,7 +179,10 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
           [](S& s, auto density) {
             set_threshold(s, {ThresholdRule::target_relative_density, *density});
           },
-          {.quantity = fraction, .bound = relative_density, .default_text = "none"},
+          {.quantity = fraction,
+           .bound = relative_density,
+           .default_text = "none",
+           .excludes = "threshold"},
           "choose the threshold that gives this relative density")
           .when(without_bands),
       image_member("sampling", &I::sampling, {},

@@ -21,7 +21,7 @@ bool within(const Given& given, const Bound& bound, double value)
 std::string example_within(const Rule& rule)
 {
   if (rule.quantity != Quantity::number) return std::string(example(rule.quantity));
-  for (const char* number : {"10", "2", "0.3"})
+  for (const char* number : {"10", "1", "0.3"})
     if (!rule.bound.violation(std::stod(number))) return number;
   return fmt::format("{}", 0.5 * (rule.bound.lower->value + rule.bound.upper->value));
 }
@@ -120,7 +120,8 @@ bool Value<int>::read(const Given& given, const Rule& rule, int& value)
 {
   long number = 0;
   if (!Value<long>::read(given, rule, number)) return false;
-  if (std::abs(number) > std::numeric_limits<int>::max()) return given.refuse("is too large");
+  if (std::abs(number) > std::numeric_limits<int>::max())
+    return given.refuse(fmt::format("must be at most {}", std::numeric_limits<int>::max()));
   value = static_cast<int>(number);
   return true;
 }

@@ -1,6 +1,9 @@
 #include "yaml_tree.hpp"
 
 #include <mpm/core/error.hpp>
+#include <mpm/core/printable.hpp>
+
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -23,7 +26,10 @@ class TreeBuilder {
   Node build(const YAML::Node& from, const Place& outer, int depth = 0)
   {
     if (depth > deepest)
-      throw InputError(outer.text() + ": nested too deeply (an anchor that contains itself?)");
+      throw InputError(fmt::format(
+          "{}: nested more than {} deep (an anchor that contains itself?). A scene needs "
+          "six levels: write out what is needed.",
+          outer.text(), deepest));
     if (++nodes_ > most_nodes)
       throw InputError(
           fmt::format("{}: the scene has more than {} values (anchors that multiply?). Write out "
@@ -33,7 +39,7 @@ class TreeBuilder {
     node.place = from.IsNull() ? outer : place(from.Mark());
     if (from.IsScalar()) {
       node.kind = Node::Kind::scalar;
-      node.scalar = from.Scalar();
+      node.scalar = printable(from.Scalar(), node.place);
       node.quoted = from.Tag() == "!";
     } else if (from.IsSequence()) {
       node.kind = Node::Kind::list;
@@ -43,13 +49,25 @@ class TreeBuilder {
       for (const auto& pair : from) {
         const YAML::Node key = pair.first;
         const Place key_place = place(key.Mark());
-        if (!key.IsScalar()) throw InputError(key_place.text() + ": a key must be a single word");
+        if (!key.IsScalar())
+          throw InputError(key_place.text() +
+                           ": a key is a list or a map (must be a word). Write e.g. 'grid:'.");
         Node inner = build(pair.second, key_place, depth + 1);
         if (inner.kind == Node::Kind::map) inner.place = key_place;  // its own mark: the first key
-        node.entries.push_back({key.Scalar(), key_place, std::move(inner)});
+        node.entries.push_back({printable(key.Scalar(), key_place), key_place, std::move(inner)});
       }
     }
     return node;
+  }
+
+  static const std::string& printable(const std::string& text, const Place& place)
+  {
+    const auto defect = unprintable(text);
+    if (!defect) return text;
+    throw InputError(
+        fmt::format("{}: a text here cannot be printed ({}). Save the file as UTF-8, and take "
+                    "control characters out.",
+                    place.text(), *defect));
   }
 
   Place place(const YAML::Mark& mark) const
@@ -63,6 +81,14 @@ class TreeBuilder {
   bool single_place_;
   long nodes_ = 0;
 };
+
+std::string remedy_of(const YAML::Exception& problem, const std::string& text)
+{
+  if (problem.msg.find(YAML::ErrorMsg::UNKNOWN_ANCHOR) != std::string::npos)
+    return "Define it above with &, or put a text that begins with * in quotes.";
+  if (text.find('\t') != std::string::npos) return "YAML does not indent with tabs: use spaces.";
+  return "Look at brackets, quotes and indentation here and one line above.";
+}
 
 }  // namespace
 
@@ -78,10 +104,11 @@ Node parse_yaml(const std::string& text, const std::string& origin, bool single_
     if (documents.empty()) return {};
     return builder.build(documents[0], {origin});
   } catch (const YAML::Exception& problem) {
-    std::string hint;
-    if (text.find('\t') != std::string::npos) hint = " YAML does not indent with tabs: use spaces.";
-    throw InputError(
-        fmt::format("{}: not YAML: {}.{}", builder.place(problem.mark).text(), problem.msg, hint));
+    std::string words = problem.msg;  // they repeat a letter of the text, whatever it is
+    std::ranges::replace_if(
+        words, [](unsigned char letter) { return letter < 32 || letter > 126; }, '?');
+    throw InputError(fmt::format("{}: not YAML: {}. {}", builder.place(problem.mark).text(), words,
+                                 remedy_of(problem, text)));
   }
 }
 

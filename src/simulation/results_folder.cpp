@@ -16,8 +16,9 @@ namespace mpm {
 
 namespace {
 
-constexpr std::array<const char*, 5> files_of_a_run{
-    "history.csv", "summary.json", "exact_solution.csv", "scene.yaml", "specimen.png"};
+constexpr std::array<const char*, 6> files_of_a_run{"history.csv",        "summary.json",
+                                                    "exact_solution.csv", "scene.yaml",
+                                                    "specimen.png",       "report.html"};
 
 /// Without the title of an effective scene, which names the file that it was made of.
 std::string without_title(const std::string& text)
@@ -77,6 +78,7 @@ void ResultsFolder::go_on() const
 {
   output::make_directory(folder_);
   remove(folder_ / "summary.json");
+  clear_report();
 }
 
 bool ResultsFolder::holds_a_run() const
@@ -96,8 +98,18 @@ void ResultsFolder::remove(const std::filesystem::path& file) const
                                 file.string(), failure.message()));
 }
 
+void ResultsFolder::clear_report() const
+{
+  remove(folder_ / "report.html");
+  for (const char* ending : {".png", ".svg"})
+    for (const std::filesystem::path& file : files_ending(folder_ / "report", ending)) remove(file);
+  std::error_code kept;  // with what else stands there
+  std::filesystem::remove(folder_ / "report", kept);
+}
+
 void ResultsFolder::clear() const
 {
+  clear_report();
   const std::filesystem::path failure = folder_ / "failure";
   for (const std::filesystem::path& folder : {folder_, failure}) {
     for (const std::filesystem::path& list : files_ending(folder, ".xdmf")) remove(list);

@@ -47,15 +47,14 @@ class Run {
     else
       begin();
     schedule_.start(stepper_->steps(), state().strain, seconds_since(start_));
-    const auto loop_start = Clock::now();
-    const double stepped_before = result_.step_seconds, observed_before = result_.observer_seconds;
+    counted_ = Clock::now();
+    observed_ = result_.observer_seconds;
     while (!finished_at(stepper_->time(), stepper_->steps())) try {
         advance();
       } catch (const NumericalError& error) {
         go_back(error);
       }
-    result_.step_seconds =
-        stepped_before + seconds_since(loop_start) - (result_.observer_seconds - observed_before);
+    count_step_seconds();
     for (Observer<Dim>* observer : observers_) observer->finish();
     fill_result();
     return std::move(result_);
@@ -84,6 +83,14 @@ class Run {
   {
     result_.particles = stepper_->particles();
     sum_over_ranks(comm_, std::span(&result_.particles, 1));
+  }
+
+  /// Up to now, without what observers took.
+  void count_step_seconds()
+  {
+    result_.step_seconds += seconds_since(counted_) - (result_.observer_seconds - observed_);
+    counted_ = Clock::now();
+    observed_ = result_.observer_seconds;
   }
 
   /// To the end, or until a NumericalError, which every rank meets at the same place.
@@ -184,6 +191,7 @@ class Run {
 
   void save()
   {
+    count_step_seconds();
     const auto start = Clock::now();
     MemoryArchive state;
     state.start_saving();
@@ -319,6 +327,8 @@ class Run {
   bool keeps_;
   KeptState<Dim> kept_;
   double step_share_ = 1;
+  Clock::time_point counted_;  ///< up to when the seconds of steps are
+  double observed_ = 0;        ///< s, of observers until then
   RunResult result_;
 };
 

@@ -62,16 +62,16 @@ class HistoryWriter final : public Observer<Dim> {
   std::optional<output::HistoryFile> file_;
 };
 
-/// How far the run is, on rank 0's terminal.
+/// How far the run is, on rank 0's terminal; warnings alone if it is quiet.
 template <int Dim>
 class ProgressWriter final : public Observer<Dim> {
  public:
-  explicit ProgressWriter(MPI_Comm comm) : writes_(rank_of(comm) == 0) {}
+  ProgressWriter(MPI_Comm comm, bool quiet) : writes_(rank_of(comm) == 0), quiet_(quiet) {}
   void start(const HistoryKind& kind) override { loaded_ = kind.piston; }
   void line(const typename Observer<Dim>::State& state, const HistoryLine& line) override
   {
     const long steps = long(state.formulation.steps());
-    if (writes_)
+    if (writes_ && !quiet_)
       progress_.show({state.fraction, steps, line.time, line.strain, line.stress(), loaded_,
                       steps * long(line.particles)});
   }
@@ -87,7 +87,7 @@ class ProgressWriter final : public Observer<Dim> {
   }
 
  private:
-  bool writes_, loaded_ = false;
+  bool writes_, quiet_, loaded_ = false;
   Progress progress_;
 };
 
@@ -138,6 +138,7 @@ std::unique_ptr<Archive> take_up(const Preparation<Dim>& preparation, const RunR
   });
   on_rank_zero(comm, [&] {
     for (const std::string& reason : loaded.passed_over) spdlog::warn(reason);
+    if (request.quiet) return;
     const std::string others =
         loaded.ranks == ranks_of(comm)
             ? ""
@@ -179,7 +180,7 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const RunRequest& r
   const std::filesystem::path& folder = request.results;
   Continuation continuation = begin_in_folder(preparation, request);
   HistoryWriter<Dim> history(comm, folder);
-  ProgressWriter<Dim> progress(comm);
+  ProgressWriter<Dim> progress(comm, request.quiet);
   FailureSnapshot<Dim> failure(preparation, folder);
   ExactSolution<Dim> exact(preparation, folder);
   std::vector<Observer<Dim>*> observers{&history, &progress, &failure, &exact};
@@ -193,6 +194,7 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const RunRequest& r
   on_rank_zero(comm, [&] {
     write_summary(preparation, result, exact, folder / "summary.json");
     for (const std::string& warning : result.warnings) spdlog::warn(warning);
+    if (request.quiet) return;
     if (result.properties) print(*result.properties);
     exact.print();
     fmt::print(

@@ -27,6 +27,9 @@ void describe(const Preparation<Dim>& preparation, output::Summary& summary)
   std::vector<std::int64_t> cells;
   for (int d = 0; d < Dim; ++d) cells.push_back(specimen.cells()[d]);
   summary.set("cells", std::move(cells));
+  std::vector<double> size;
+  for (int d = 0; d < Dim; ++d) size.push_back(specimen.size()[d]);
+  summary.set("size", std::move(size));
 }
 
 void describe(const Cooperation& cooperation, output::Summary& summary)

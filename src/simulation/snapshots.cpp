@@ -155,21 +155,23 @@ std::vector<double> moments_of(const Preparation<Dim>& preparation)
 }  // namespace
 
 template <int Dim>
-output::Snapshot snapshot_of(Formulation<Dim>& formulation, double strain,
-                             const std::vector<scene::Field>& fields)
+output::Snapshot snapshot_of(const Preparation<Dim>& preparation, Formulation<Dim>& formulation,
+                             double strain)
 {
   output::Snapshot snapshot;
   snapshot.time = formulation.time();
   snapshot.strain = strain;
   snapshot.step = formulation.steps();
+  snapshot.particle_volume = preparation.layout.particle_volume;
   snapshot.position = vectors(formulation.bodies(), "position");
-  for (const Field field : fields) snapshot.fields.push_back(make_field(field, formulation));
+  for (const Field field : preparation.scene.output.fields)
+    snapshot.fields.push_back(make_field(field, formulation));
   return snapshot;
 }
 
 template <int Dim>
 Snapshots<Dim>::Snapshots(const Preparation<Dim>& preparation, const std::filesystem::path& folder)
-    : fields_(preparation.scene.output.fields),
+    : preparation_(preparation),
       series_(preparation.comm, folder, preparation.scene.name,
               {.compress = preparation.scene.output.compress}),
       moments_(moments_of(preparation))
@@ -183,7 +185,7 @@ void Snapshots<Dim>::look(const typename Observer<Dim>::State& state)
   looked_ = formulation.time();
   if (!pass_moments()) return;
   formulation.check();
-  series_.write(snapshot_of(formulation, state.strain, fields_));
+  series_.write(snapshot_of(preparation_, formulation, state.strain));
 }
 
 /// Whether any has come.
@@ -219,8 +221,8 @@ void Snapshots<Dim>::archive(Archive& archive)
   pass_moments();
 }
 
-template output::Snapshot snapshot_of(Formulation<2>&, double, const std::vector<scene::Field>&);
-template output::Snapshot snapshot_of(Formulation<3>&, double, const std::vector<scene::Field>&);
+template output::Snapshot snapshot_of(const Preparation<2>&, Formulation<2>&, double);
+template output::Snapshot snapshot_of(const Preparation<3>&, Formulation<3>&, double);
 
 template class Snapshots<2>;
 template class Snapshots<3>;

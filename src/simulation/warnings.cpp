@@ -1,10 +1,12 @@
 #include <mpm/micrograph/gaps.hpp>
+#include <mpm/micrograph/picture.hpp>
 #include <mpm/micrograph/wall_thickness.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/warnings.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -17,6 +19,9 @@ constexpr double thin_share = 0.01;
 /// Speed of the piston over that of the fastest wave, up to which both ends of shipped woods feel
 /// the same stress within some percent.
 constexpr double quasi_static_speed = 0.01;
+/// Of the piston over that of the fastest wave: nothing here describes what happens, and a slip of
+/// the unit is likelier. What flies freely may be as soft as it likes.
+constexpr double senseless_speed = 100;
 /// A sudden start sends a wave of this strain through the specimen.
 constexpr double sudden_strain = 1e-3;
 constexpr double many_steps = 1e8;
@@ -71,6 +76,13 @@ void look_at_reach(const scene::Scene& scene, const micrograph::Specimen<Dim>& s
     if (layer == 0) gap += layout.location_size[axis];
     if (gap >= travel) unmet += layer;
   }
+  if (gap >= travel && unmet == std::reduce(layers.begin(), layers.end()))
+    micrograph::throw_in_scene(
+        scene,
+        fmt::format("the piston, which travels {:.4g} mm, never meets the specimen: there is "
+                    "nothing in its way. Raise loading.strain, let it come from another "
+                    "side (loading.piston), or crop the specimen.",
+                    1e3 * travel));
   if (unmet > 0)
     warnings.push_back(fmt::format(
         "the piston, which travels {:.4g} mm, never meets {:.0f} of {} particles: there are {:.4g} "
@@ -103,6 +115,12 @@ void look_at_speed(const scene::Scene& scene, const micrograph::Specimen<Dim>& s
 {
   const auto* loading = std::get_if<scene::Loading>(&scene.motion);
   const double speed = layout.largest_speed, wave = layout.wave_speed;
+  if (loading && loading->speed >= senseless_speed * wave)
+    micrograph::throw_in_scene(
+        scene,
+        fmt::format("the piston's speed, {:.4g} m/s, is more than {} times that of the fastest "
+                    "wave, {:.4g} m/s. Lower loading.speed.",
+                    loading->speed, senseless_speed, wave));
   if (speed >= wave) {
     warnings.push_back(fmt::format(
         "the largest speed, {:.4g} m/s, is not below that of the fastest wave, {:.4g} m/s: "

@@ -1,5 +1,5 @@
 """Checks that the keys of a study file share."""
-from quantities import to_si
+from mpm_par.quantities import to_si
 
 
 def known(node, keys, where):

@@ -4,7 +4,7 @@ This is the part that runs; NumPy is loaded after it (see program.py).
 """
 import store
 from problems import BAD_INPUT, InputError, NoResult
-from quantities import to_si
+from mpm_par.quantities import to_si
 from yaml_tree import Node, read_yaml
 
 import resolution

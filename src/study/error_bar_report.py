@@ -11,7 +11,7 @@ import machine
 import results
 import store
 import tables
-from quantities import percent
+from mpm_par.quantities import percent
 
 
 @dataclasses.dataclass

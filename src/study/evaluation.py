@@ -8,7 +8,7 @@ import measure_keys
 import pareto
 import resolution
 import results
-from quantities import percent
+from mpm_par.quantities import percent
 
 COSTS = ("wall_seconds", "core_seconds", "particle_steps")
 OK, UNSTABLE, FAILED = "ok", "unstable", "failed"

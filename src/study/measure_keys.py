@@ -4,7 +4,7 @@ import dataclasses
 import resolution
 from checked_keys import known
 from combinations import Combination
-from quantities import to_si
+from mpm_par.quantities import to_si
 
 KEYS = ("name", "of", "curve", "mean", "against", "reference")
 PART_KEYS = ("strain", "column")

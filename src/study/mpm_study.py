@@ -13,6 +13,18 @@ import program
 import study_run
 
 
+def part_of(text, parser):
+    """(K, N) of "K/N"; None of None."""
+    if text is None:
+        return None
+    numbers = text.split("/")
+    if len(numbers) == 2 and all(number.isdecimal() for number in numbers):
+        part, parts = map(int, numbers)
+        if 1 <= part <= parts:
+            return part, parts
+    return parser.error(f"--part is {text} (not K/N with K from 1 to N). Write e.g. 2/8.")
+
+
 def arguments_of(words):
     parser = argparse.ArgumentParser(
         prog="mpm_study", description=__doc__,
@@ -21,6 +33,8 @@ def arguments_of(words):
     parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of results")
     parser.add_argument("--ranks", type=int, default=1, metavar="N",
                         help="MPI ranks of runs that do not vary them (1)")
+    parser.add_argument("--part", metavar="K/N",
+                        help="run only the K-th of N shares of the study's runs, write no tables")
     parser.add_argument("--quick", action="store_true", help="the study's quick variant")
     bar = parser.add_argument_group("error bar of one run")
     bar.add_argument("--error-bar", action="store_true",
@@ -36,6 +50,9 @@ def arguments_of(words):
     given = parser.parse_args(words)
     if given.ranks < 1:
         parser.error("--ranks is below 1. Write a number of ranks.")
+    given.part = part_of(given.part, parser)
+    if given.error_bar and given.part:
+        parser.error("--part belongs to a study, --error-bar to a scene. Leave one away.")
     if given.error_bar and given.quick:
         parser.error("--quick belongs to a study, --error-bar to a scene. Leave one away.")
     if given.set and not given.error_bar:

@@ -2,7 +2,7 @@
 import math
 import re
 
-from quantities import NUMBER, to_si
+from mpm_par.quantities import NUMBER, to_si
 
 
 def _cells(text):

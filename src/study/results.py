@@ -1,7 +1,8 @@
 """Figures out of what mpm_par leaves behind: summary.json and history.csv. SI units."""
-import csv
-
 import numpy
+
+from mpm_par.history import read_history
+from mpm_par.problems import ResultsError
 
 CURVE_POINTS = 600  # evenly over a range of strain
 
@@ -29,29 +30,16 @@ def figure(summary, path):
     return float(found)
 
 
-def read_history(path):
-    """Columns by name, without units."""
-    with open(path, newline="", encoding="utf-8") as file:
-        header, *lines = list(csv.reader(file)) or [[]]
-    values = numpy.array([[float(cell) for cell in line] for line in lines])
-    return {title.split("[")[0].strip(): values[:, k] for k, title in enumerate(header)} \
-        if len(lines) else {}
-
-
 def curve(path, column, begin, end):
-    """`column` at CURVE_POINTS strains from begin to end, straight lines between the history's.
-
-    Stresses are means since the last line: they belong to the middle of that interval."""
-    history = read_history(path)
-    for name in ("strain", column):
-        if name not in history:
-            raise Missing(f"history.csv has no column {name}")
-    strain, values = history["strain"], history[column]
-    if strain[-1] < end * (1 - 1e-6):
-        raise Missing(f"the run ends at {100 * strain[-1]:.3g} % strain, before {100 * end:.3g} %")
-    if column.startswith("stress"):
-        strain = numpy.append(strain[0], 0.5 * (strain[1:] + strain[:-1]))
-    found = numpy.interp(numpy.linspace(begin, end, CURVE_POINTS), strain, values)
+    """`column` at CURVE_POINTS strains from begin to end, straight lines between the history's."""
+    try:
+        history = read_history(path)
+        last = history["strain"][-1]
+        if last < end * (1 - 1e-6):
+            raise Missing(f"the run ends at {100 * last:.3g} % strain, before {100 * end:.3g} %")
+        found = history.at(column, numpy.minimum(numpy.linspace(begin, end, CURVE_POINTS), last))
+    except ResultsError as error:
+        raise Missing(str(error)) from None
     if not numpy.isfinite(found).all():
         raise Missing(f"{column} is not finite")
     return found

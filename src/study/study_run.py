@@ -34,13 +34,16 @@ def _is_bad(done):
     return done.ended.exit_status != DONE or done.ended.stopped
 
 
-def run_all(study, program, kept, say=print):
+def run_all(study, program, kept, say=print, part=(1, 1)):
     """All rounds in turn: every run once, then every run again. Returns a list of rounds for each
-    combination. What failed, and what is only for the reference, is not repeated."""
+    combination. What failed, and what is only for the reference, is not repeated. Of part (K, N)
+    only every N-th combination is run."""
     rounds = [[] for _ in study.combinations]
     before = 0
     for turn in range(1, study.repeat + 1):
         for k, combination in enumerate(study.combinations):
+            if k % part[1] != part[0] - 1:
+                continue
             if turn > 1 and (_is_bad(rounds[k][0]) or combination.only_reference):
                 continue
             assignments = study.assignments(combination)
@@ -78,7 +81,13 @@ def run(given, program, output):
     output.mkdir(parents=True, exist_ok=True)
     trees = [read_yaml(study.scene), *study.nodes.values()]
     kept = store.Store(output, store.scene_print(study.scene, trees), program.identity)
-    rounds = run_all(study, program, kept, lambda line: print(line, flush=True))
+    rounds = run_all(study, program, kept, lambda line: print(line, flush=True),
+                     given.part or (1, 1))
+    if given.part:
+        done = sum(bool(of_run) for of_run in rounds)
+        print(f"part {given.part[0]} of {given.part[1]}: {done} of {len(rounds)} runs done. Without "
+              "--part the same\ncommand writes the tables when all parts have ended.")
+        return
 
     import evaluation  # after the runs: NumPy and Matplotlib are large (see program.py)
     import plot

@@ -7,7 +7,7 @@ import re
 import numpy
 
 import evaluation
-from quantities import percent
+from mpm_par.quantities import percent
 
 COLUMNS = ("wall_seconds", "wall_spread", "core_seconds", "cpu_seconds", "elapsed_seconds",
            "particle_steps", "particles", "steps", "peak_memory_mib", "energy_error", "rounds",

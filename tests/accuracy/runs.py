@@ -13,7 +13,8 @@ from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[2]
 RESULTS = PROJECT / "docs" / "accuracy"
-sys.path += [str(PROJECT / "src" / "study"), str(PROJECT / "tests" / "convergence")]
+sys.path += [str(PROJECT / "src" / "study"), str(PROJECT / "src" / "python"),
+             str(PROJECT / "tests" / "convergence")]
 UPDATED = "numerics.formulation=updated_lagrangian"
 ROUNDS, SHORT = 3, 1.0  # runs of less than SHORT seconds are timed ROUNDS times
 

@@ -18,7 +18,7 @@ MPI, TOOLS = "parallel/ output/", "scene/ micrograph/draw_wood analysis/mpm_curv
 WALLS = {r"petsc\w*\.h": "parallel/", r"mpi\.h": MPI, r"metis\.h": "parallel/",
          r"(hdf5|H5\w+)\.h": "output/hdf5_", r"yaml-cpp/.*": "scene/ micrograph/anatomy",
          r"CLI/.*": TOOLS, r"udunits2\.h": "core/units", r"muParser\.h": "core/formula", r"stb_\w+\.h|tiff\w*\.h": "micrograph/",
-         r"pugixml\.hpp": "output/", r"nlohmann/.*": "output/ analysis/"}
+         r"pugixml\.hpp": "output/", r"nlohmann/.*": "output/ analysis/ scene/"}
 FREE_IN_PHYSICS = r"Eigen/\w+|experimental/simd|\w+"  # \w+: the standard library
 OF_A_MACHINE = re.compile(r"(?<![\w.}/])/(work|root|home|tmp|Users)/\w")
 
@@ -41,7 +41,7 @@ def problems(root):
             elif (folder in PHYSICS.split()[1:] and "<" in line and name and not own
                   and not re.fullmatch(FREE_IN_PHYSICS, name)):
                 yield f"{path}:{number}: physics sees Eigen and the standard library, not {name}"
-    for top in "CMakeLists.txt README.md cmake src include tests inputs jobscripts docs .ci".split():
+    for top in "CMakeLists.txt README.md cmake src include tests inputs jobscripts packaging docs .ci".split():
         for path in filter(Path.is_file, [root / top, *(root / top).rglob("*")]):
             for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
                 if path.suffix not in (".bmp", ".png", ".pyc") and OF_A_MACHINE.search(line):

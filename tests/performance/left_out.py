@@ -108,7 +108,7 @@ def row(name, base, results):
 def page(build, results, itself, loads):
     about, host = build.about(), machine()
     table = "\n".join(row(name, base, results) for name, (_, base) in CASES.items())
-    return f"""## What is left out, and what it would cost
+    return f"""# What is left out, and what it would cost
 
 Written by `python3 tests/performance/left_out.py --write`. A block of 160,000 particles in the
 plane (`inputs/benchmarks/block_gimp.yaml`), first {results[0][BASE]["steps"]} steps, one rank on
@@ -132,7 +132,7 @@ and the last sound state, as large as the arrays.
 {table}
 
 What a scene leaves out, and why, is in the plan of `--check` and in `summary.json`
-([output files](output_files.md#plan)).
+([output files](../output_files.md#plan)).
 """
 
 

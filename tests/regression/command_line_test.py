@@ -57,6 +57,17 @@ class CommandLine(ProgramTest):
         self.assertEqual((self.folder / "first/history.csv").read_text(),
                          (self.folder / "again/history.csv").read_text())
 
+    def test_quiet_leaves_warnings_and_errors_alone(self):
+        for words in SHORT, ["--check"]:
+            run = self.run_here(scene("confined_block"), "-o", "out", "--quiet", *words)
+            self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
+        self.assertIn("out/summary.json", self.files())
+        every = ["-o", "goes_on", "--quiet", "--set", "output.checkpoints={steps: 20}"]
+        for words in ["--set", "steps=30"], ["--restart", *SHORT]:
+            run = self.run_here(scene("confined_block"), *every, *words)
+            self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
+        self.check_refused("nowhere.yaml", "--quiet", words=["nowhere.yaml: no such scene file"])
+
     def test_set_changes_the_run_and_the_last_one_holds(self):
         run = self.run_here(scene("confined_block"), "-o", "out", "--set", "grid.cells=[8, 4]",
                             "--set", "grid.particles_per_cell=3", "--set", "steps=9",
@@ -85,7 +96,8 @@ class CommandLine(ProgramTest):
     def test_help_and_reference_are_printed_once_without_a_scene(self):
         run = self.run_here("--help")
         self.assertEqual(run.returncode, 0, run.stderr)
-        for option in ("--check", "--output", "--set", "--version", "--input-reference"):
+        for option in ("--check", "--output", "--set", "--version", "--input-reference",
+                       "--input-schema"):
             self.assertIn(option, run.stdout)
         self.assertEqual(run.stdout.count("--check"), 1)
         reference = self.run_here("--input-reference")

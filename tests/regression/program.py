@@ -8,7 +8,6 @@ import subprocess
 import unittest
 
 SCENES = pathlib.Path(__file__).parent / "scenes"
-SCRATCH = pathlib.Path(os.environ["MPM_SCRATCH"])
 
 
 def mpm_par(*arguments, ranks=1, folder=None, timeout=240):
@@ -49,7 +48,7 @@ class ProgramTest(unittest.TestCase):
     """Each test has a folder of its own, empty when it starts."""
 
     def setUp(self):
-        self.folder = SCRATCH / self.id().split(".", 1)[1]
+        self.folder = pathlib.Path(os.environ["MPM_SCRATCH"]) / self.id().split(".", 1)[1]
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
 

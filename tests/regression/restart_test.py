@@ -7,7 +7,8 @@ import subprocess
 import time
 import unittest
 
-from program import History, ProgramTest, mpm_par, scene, summary
+from program import History, ProgramTest, mpm_par, summary
+from same_results import facts_of, files_of
 
 INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
 SNAPSHOTS = "output.snapshots={strains: [0 %, 10 %, 20 %, 29 %]}"
@@ -28,27 +29,8 @@ WOOD = (INPUTS / "wood" / "ponderosa_tangential.yaml",
          "output.fields=[velocity, stress, id, rank]"])
 BAR = (INPUTS / "benchmarks" / "vibrating_bar.yaml", ["output.history_lines=50"])
 
-# By the clock, or of the folder.
-NOT_REPEATED = {"name", "results"}
-
-
 def words_of(settings):
     return [word for setting in settings for word in ("--set", setting)]
-
-
-def files_of(folder):
-    found = {path.name: path.read_bytes()
-             for path in [*folder.glob("*.csv"), *folder.glob("*.xdmf"), *folder.glob("snapshots/*.h5")]}
-    assert "history.csv" in found
-    return found
-
-
-def facts_of(folder):
-    """What of the summary does not depend on the clock."""
-    found = summary(folder)
-    return {key: value for key, value in found.items()
-            if "second" not in key and "ns_per" not in key and "bytes" not in key
-            and "messages" not in key and key not in NOT_REPEATED}
 
 
 class Restart(ProgramTest):
@@ -162,6 +144,13 @@ class Restart(ProgramTest):
         for limit in "soon", "-1 s", "3 m":
             run = self.run_it(RING, folder, "--restart", "--time-limit", limit, status=2)
             self.assertIn("--time-limit is " + limit, run.stderr)
+
+    def test_time_of_steps_counts_those_before_the_checkpoint(self):
+        folder, settings = self.folder / "timed", [CELLS, "output.checkpoints={steps: 1400}"]
+        self.run_it(RING, folder, settings=[*settings, "steps=1450"])
+        before = summary(folder)["ns_per_particle_step"]
+        self.run_it(RING, folder, "--restart", settings=[*settings, "steps=1460"])
+        self.assertGreater(summary(folder)["ns_per_particle_step"], 0.5 * before)
 
     def begun(self, settings=()):
         folder = self.folder / "begun"

@@ -9,7 +9,7 @@ from program import ProgramTest, mpm_par, scene
 
 QUICK = ["--set", "output.history_lines=4", "--set", "steps=40"]
 WHOLE = ["--set", "output.history_lines=4"]
-OF_A_RUN = ["exact_solution.csv", "history.csv", "scene.yaml", "specimen.png", "summary.json"]
+OF_A_RUN = ["exact_solution.csv", "history.csv", "report.html", "scene.yaml", "specimen.png", "summary.json"]
 
 
 def all_of(folder):

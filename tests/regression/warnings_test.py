@@ -69,6 +69,14 @@ class Warnings(ProgramTest):
             self.assertIn(warning, run.stdout)
         return said
 
+    def test_quiet_leaves_them_alone_on_the_terminal(self):
+        file = self.folder / "scene.yaml"
+        file.write_text(SCENE.replace("SHAPES", "".join(f"    - box: {box}\n" for box in THIN)))
+        for words in ["--check"], ["--output", self.folder / "results"]:
+            run = mpm_par(file, "--quiet", "--set", "loading.piston=top", *words, ranks=2)
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+            self.assertRegex(run.stdout, r"\Awarning: [^\n]+\n\Z")
+
     def assert_only(self, warnings, *parts):
         self.assertEqual(len(warnings), 1, warnings)
         for part in parts:

@@ -13,7 +13,8 @@ import json
 import pathlib
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "src" / "study"))
+SOURCES = pathlib.Path(__file__).resolve().parents[2] / "src"
+sys.path[:0] = [str(SOURCES / "study"), str(SOURCES / "python")]
 
 import convergence  # noqa: E402
 import resolution  # noqa: E402

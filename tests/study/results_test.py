@@ -36,7 +36,7 @@ class History(unittest.TestCase):
     def test_what_is_not_there_is_told(self):
         self.missing("no column stress_edge", column="stress_edge")
         self.missing("ends at 40 % strain, before 50 %", end=0.5)
-        self.missing("no column strain", lines="")
+        self.missing("no line of values", lines="")
         self.missing("not finite", lines=LINES[:LINES.index("0.2,")] + "0.2,nan\n0.3,0\n")
 
 

@@ -48,6 +48,22 @@ class StudyTest(WholeRun):
 
 
 class WholeStudy(StudyTest):
+    def test_parts_together_are_the_study(self):
+        study, output = self.write(STUDY.replace("repeat: 2", "repeat: 1")), self.folder / "output"
+        for part, runs in ("1/5", 3), ("2/5", 3), ("5/5", 2):
+            said = self.good(study, "--output", output, "--part", part)
+            self.assertIn(f"{runs} of 12 runs done", said)
+            self.assertEqual([path.name for path in output.iterdir()], ["runs"])
+        self.assertEqual(len(self.times_of_records()), 8)
+        for wrong in "0/3", "4/3", "2", "a/b":
+            run = mpm_study(study, "--output", output, "--part", wrong)
+            self.assertEqual(run.returncode, 2)
+            self.assertIn(f"--part is {wrong}", run.stderr)
+        before = self.times_of_records()
+        self.assertIn("8 runs were done before", self.good(study, "--output", output))
+        self.assertEqual(len(self.table()), 12)
+        self.assertLessEqual(before.items(), self.times_of_records().items())
+
     def test_tables_plots_and_terminal(self):
         said = self.good(self.write(), "--output", self.folder / "output")
         rows = self.table()

@@ -20,6 +20,6 @@ struct Picture {
 std::optional<Picture> read_picture(const scene::Scene& scene);
 
 /// Throws `error` again with the scene's file before it, where there is one.
-[[noreturn]] void throw_in_scene(const scene::Scene& scene, const char* error);
+[[noreturn]] void throw_in_scene(const scene::Scene& scene, const std::string& error);
 
 }  // namespace mpm::micrograph

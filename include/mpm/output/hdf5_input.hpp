@@ -18,6 +18,7 @@ class Hdf5Input {
   Hdf5Input& operator=(const Hdf5Input&) = delete;
 
   const std::filesystem::path& file() const { return file_; }
+  bool has_attribute(const std::string& name) const;      ///< in the root group
   std::int64_t attribute(const std::string& name) const;  ///< of the root group
   std::int64_t rows(const std::string& dataset) const;
   /// `count` rows from `first` on, all components of each.

@@ -26,6 +26,7 @@ struct Snapshot {
   double time = 0;    ///< s
   double strain = 0;  ///< 0 without a piston
   std::int64_t step = 0;
+  double particle_volume = 0;         ///< m3, of a location at the start
   std::vector<double> position;       ///< m, 3 per particle (z = 0 in 2D)
   std::vector<ParticleField> fields;  ///< the same names in the same order on every rank
 };

@@ -21,6 +21,9 @@ struct CommandLine {
   std::optional<std::filesystem::path> checkpoint;  ///< or from the one named
   bool overwrite = false;                           ///< --overwrite: results of another run
   std::optional<double> time_limit;                 ///< --time-limit, s
+  bool report = false;                              ///< --report: leave a page behind
+  bool quiet = false;                               ///< --quiet: warnings and errors alone
+  bool self_test = false;                           ///< --self-test: of the machine, no scene
   std::vector<std::string> petsc;  ///< options for PETSc with their values, in order
 };
 

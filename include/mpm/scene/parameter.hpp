@@ -1,6 +1,6 @@
 #pragma once
 /// A key of the scene as one row of data, and what follows from lists of such rows: reading with
-/// every check, writing back, describing.
+/// every check, writing back, describing, and the JSON schema.
 
 #include <mpm/scene/value.hpp>
 
@@ -30,6 +30,7 @@ struct Traits {
   Need need = Need::optional;
   bool decides = false;        ///< conditions of later rows look at it (always so for a choice)
   std::string default_text{};  ///< where the default is computed
+  std::string excludes{};      ///< another key of the map, which does not go with this one
 };
 
 template <class Owner>
@@ -42,6 +43,8 @@ struct Parameter {
   bool decides;
   std::function<bool(const Given&, Owner&, int dimensions)> read;
   std::function<Node(const Owner&, int dimensions)> write;  ///< Kind::nothing: left out
+  std::function<Json()> schema;
+  std::string excludes{};  ///< as in Traits
   Condition<Owner> condition{};
   std::optional<int> dimensions{};  ///< of the scenes that it belongs to; nothing: any
 
@@ -124,7 +127,9 @@ Parameter<Owner> property(std::string key, std::function<T(const Owner&)> get,
             Rule here = rule;
             here.dimensions = dimensions;
             return Value<T>::write(get(owner), here);
-          }};
+          },
+          [rule] { return Value<T>::schema(rule); },
+          traits.excludes};
 }
 
 /// A row for a member.
@@ -150,10 +155,13 @@ std::vector<std::string> keys(const std::vector<Parameter<Owner>>& rows)
 std::vector<std::string> check_keys(const Given& given, const std::vector<std::string>& known);
 
 void report_foreign(const Given& map, const Entry& entry, const std::string& belongs_to);
+void report_excluded(const Given& map, const Entry& entry, const Entry& other);
 void report_missing(const Given& map, const std::string& key, const std::string& help,
                     const std::string& type);
 /// `a map: [material](#material)`
 std::string link_to(std::string_view section);
+/// `#/definitions/free_motion`
+std::string schema_reference(std::string_view section);
 
 inline std::string joined(const std::string& path, const std::string& key)
 {
@@ -187,6 +195,10 @@ bool read_map(const Given& given, Owner& owner, int dimensions)
     if (const Entry* entry = given.node.find(row.key)) {
       const Given value = given.entry(*entry);
       if (applies) {
+        if (const Entry* other = row.excludes.empty() ? nullptr : given.node.find(row.excludes)) {
+          report_excluded(given, *entry, *other);
+          good = false;
+        }
         const bool read = row.read(value, owner, dimensions);
         if (!read && row.decides) decided = false;
         good &= read;
@@ -228,6 +240,7 @@ requires(!section<T>.empty()) struct Value<T> {
   }
   static Node write(const T& value, const Rule& rule) { return write_map(value, rule.dimensions); }
   static std::string describe(const Rule&) { return link_to(section<T>); }
+  static Json schema(const Rule&) { return {{"$ref", schema_reference(section<T>)}}; }
 };
 
 }  // namespace mpm::scene

@@ -18,7 +18,8 @@ class Problems {
   /// Whether a problem concerns this path or something below it.
   bool concern(std::string_view path) const;
 
-  /// Throws InputError with one line each, in the order of the file, options last.
+  /// Throws InputError with one line each, in the order of the file, options last; of many
+  /// the first, and how many there are.
   void throw_if_any() const;
 
  private:
@@ -26,7 +27,8 @@ class Problems {
     Place place;
     std::string path, text;
   };
-  std::vector<Problem> found_;
+  std::vector<Problem> found_;  ///< the first ones
+  std::size_t count_ = 0;
 };
 
 /// What the scene gives at one key path.

@@ -20,4 +20,7 @@ void write_effective_scene(std::ostream& out, const Scene& scene);
 /// The page docs/input_reference.md.
 void write_input_reference(std::ostream& out);
 
+/// docs/scene.schema.json, for editors.
+void write_input_schema(std::ostream& out);
+
 }  // namespace mpm::scene

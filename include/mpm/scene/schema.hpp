@@ -108,6 +108,7 @@ struct Value<SnapshotKeys> {
   static bool read(const Given& given, const Rule& rule, SnapshotKeys& keys);
   static Node write(const SnapshotKeys& keys, const Rule& rule);
   static std::string describe(const Rule& rule);
+  static Json schema(const Rule& rule);
 };
 
 /// The keys of a finished scene.

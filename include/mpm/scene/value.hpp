@@ -4,6 +4,7 @@
 /// Value<T>::read checks and stores; it returns false after reporting what is wrong.
 /// Value<T>::write returns the node that reads back as the same value.
 /// Value<T>::describe is the cell of the reference page.
+/// Value<T>::schema is its part of the JSON schema: it takes what read takes, and may take more.
 
 #include <mpm/core/bound.hpp>
 #include <mpm/core/one_of.hpp>
@@ -21,7 +22,11 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace mpm::scene {
+
+using Json = nlohmann::ordered_json;
 
 /// What a row of the parameter lists says about the numbers it takes.
 struct Rule {
@@ -58,6 +63,14 @@ std::string words_as_code(const std::vector<std::string>& names);
 /// Place of the given word among these; reports any other, with the nearest.
 std::optional<std::size_t> read_word(const Given& given, const std::vector<std::string>& names);
 
+/// One of these; `helps`: what each of them means, if that is known.
+Json words_schema(const std::vector<std::string>& words,
+                  const std::vector<std::string>& helps = {});
+/// A list of so many; `most` 0: of any length from `least` on.
+Json list_schema(Json items, std::size_t least = 0, std::size_t most = 0);
+/// What the rule's spread adds to a list.
+Json one_or_list(const Rule& rule, Json one, Json list);
+
 /// Choices of a word decide which other keys there are.
 template <class T>
 inline constexpr bool is_choice = std::is_enum_v<T>;
@@ -69,6 +82,7 @@ struct Value<double> {
   static bool read(const Given& given, const Rule& rule, double& value);
   static Node write(const double& value, const Rule& rule);
   static std::string describe(const Rule& rule);
+  static Json schema(const Rule& rule);
 };
 
 template <>
@@ -76,6 +90,7 @@ struct Value<long> {
   static bool read(const Given& given, const Rule& rule, long& value);
   static Node write(const long& value, const Rule&) { return Node::of(std::to_string(value)); }
   static std::string describe(const Rule& rule);
+  static Json schema(const Rule& rule);
 };
 
 template <>
@@ -83,6 +98,7 @@ struct Value<int> {
   static bool read(const Given& given, const Rule& rule, int& value);
   static Node write(const int& value, const Rule&) { return Node::of(std::to_string(value)); }
   static std::string describe(const Rule& rule) { return Value<long>::describe(rule); }
+  static Json schema(const Rule& rule) { return Value<long>::schema(rule); }
 };
 
 template <>
@@ -90,6 +106,7 @@ struct Value<bool> {
   static bool read(const Given& given, const Rule& rule, bool& value);
   static Node write(const bool& value, const Rule&) { return Node::of(value ? "true" : "false"); }
   static std::string describe(const Rule&) { return "`true` or `false`"; }
+  static Json schema(const Rule& rule);
 };
 
 template <>
@@ -97,6 +114,7 @@ struct Value<std::string> {
   static bool read(const Given& given, const Rule& rule, std::string& value);
   static Node write(const std::string& value, const Rule&) { return Node::of_text(value); }
   static std::string describe(const Rule&) { return "text"; }
+  static Json schema(const Rule& rule);
 };
 
 template <>
@@ -107,6 +125,7 @@ struct Value<std::filesystem::path> {
     return Node::of_text(value.string());
   }
   static std::string describe(const Rule&) { return "file, relative to the scene's folder"; }
+  static Json schema(const Rule& rule);
 };
 
 /// A number with a unit stands for itself, any other text for a formula in SI units.
@@ -115,6 +134,7 @@ struct Value<Formula> {
   static bool read(const Given& given, const Rule& rule, Formula& value);
   static Node write(const Formula& value, const Rule& rule);
   static std::string describe(const Rule& rule);
+  static Json schema(const Rule& rule);
 };
 
 /// A map of names to texts.
@@ -123,6 +143,7 @@ struct Value<Definitions> {
   static bool read(const Given& given, const Rule& rule, Definitions& definitions);
   static Node write(const Definitions& definitions, const Rule& rule);
   static std::string describe(const Rule& rule);
+  static Json schema(const Rule& rule);
 };
 
 // Tables: at least two entries, times ascending.
@@ -131,12 +152,14 @@ struct Value<TimeTable> {
   static bool read(const Given& given, const Rule& rule, TimeTable& table);
   static Node write(const TimeTable& table, const Rule& rule);
   static std::string describe(const Rule& rule);
+  static Json schema(const Rule& rule);
 };
 template <>
 struct Value<MotionTable> {
   static bool read(const Given& given, const Rule& rule, MotionTable& table);
   static Node write(const MotionTable& table, const Rule& rule);
   static std::string describe(const Rule& rule);
+  static Json schema(const Rule& rule);
 };
 
 template <class Choice>
@@ -153,6 +176,7 @@ struct Value<Choice> {
     return Node::of(std::string(name_of(value)));
   }
   static std::string describe(const Rule&) { return words_as_code(all_names<Choice>()); }
+  static Json schema(const Rule&) { return words_schema(all_names<Choice>()); }
 };
 
 /// A row of a list, by its keyword.
@@ -169,6 +193,12 @@ struct Value<OneOf<Row>> {
     return Node::of(std::string(value->keyword));
   }
   static std::string describe(const Rule&) { return words_as_code(keywords<Row>()); }
+  static Json schema(const Rule&)
+  {
+    std::vector<std::string> helps;
+    for (const Row& row : list_of<Row>()) helps.emplace_back(row.help);
+    return words_schema(keywords<Row>(), helps);
+  }
 };
 
 template <class T>
@@ -185,6 +215,7 @@ struct Value<std::optional<T>> {
     return value ? Value<T>::write(*value, rule) : Node{};
   }
   static std::string describe(const Rule& rule) { return Value<T>::describe(rule); }
+  static Json schema(const Rule& rule) { return Value<T>::schema(rule); }
 };
 
 /// The entries of a list of so many, or the one value that stands for all; `wanted`: `a list of 2`.
@@ -231,6 +262,11 @@ struct Value<std::array<T, N>> {
   {
     return (rule.spread ? "one value or " : "") + words() + ": " + Value<T>::describe(rule);
   }
+  static Json schema(const Rule& rule)
+  {
+    const Json one = Value<T>::schema(rule);
+    return one_or_list(rule, one, list_schema(one, N, N));
+  }
 
  private:
   static std::string words() { return "a list of " + std::to_string(N); }
@@ -257,6 +293,11 @@ struct Value<PlaneOrSpace<T, InPlane, InSpace>> {
   {
     return (rule.spread ? "one value or a list of " : "a list of ") + std::to_string(InPlane) +
            " (in space " + std::to_string(InSpace) + "): " + Value<T>::describe(rule);
+  }
+  static Json schema(const Rule& rule)
+  {
+    const Json one = Value<T>::schema(rule);
+    return one_or_list(rule, one, list_schema(one, InPlane, InSpace));
   }
 
  private:
@@ -289,6 +330,7 @@ struct Value<std::vector<T>> {
     return node;
   }
   static std::string describe(const Rule& rule) { return "a list: " + Value<T>::describe(rule); }
+  static Json schema(const Rule& rule) { return list_schema(Value<T>::schema(rule)); }
 };
 
 }  // namespace mpm::scene

@@ -14,9 +14,9 @@ class ResultsFolder {
   explicit ResultsFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// Makes it if it is not there. What another run has left there is taken away if `overwrite`:
-  /// history, summary, snapshots and their lists, checkpoints, the state at a failure. Throws
-  /// InputError if it is not, or if one of `inputs` stands where a result is to be written and is
-  /// not the effective scene itself; FileError if something cannot be made or taken away.
+  /// history, summary, snapshots and their lists, checkpoints, the state at a failure, the report.
+  /// Throws InputError if it is not, or if one of `inputs` stands where a result is to be written
+  /// and is not the effective scene itself; FileError if something cannot be made or taken away.
   void start_anew(std::span<const std::filesystem::path> inputs, const std::string& effective_scene,
                   bool overwrite) const;
   /// Takes away what is true of a run only when it has ended.
@@ -25,6 +25,7 @@ class ResultsFolder {
  private:
   bool holds_a_run() const;
   void remove(const std::filesystem::path& file) const;
+  void clear_report() const;
   void clear() const;
   std::filesystem::path folder_;
 };

@@ -69,6 +69,7 @@ struct RunRequest {
   std::optional<double> time_limit{};  ///< s
   std::filesystem::path scene{};       ///< the file that it has been read from
   std::vector<std::filesystem::path> pictures{};  ///< that it has read
+  bool quiet = false;                             ///< warnings alone on the terminal
 };
 
 /// The same, leaving history.csv, summary.json, the effective scene, snapshots and the picture of

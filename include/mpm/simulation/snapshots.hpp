@@ -6,10 +6,10 @@
 
 namespace mpm {
 
-/// All particles of this rank as they are.
+/// All particles of this rank as they are, with the fields that the scene asks for.
 template <int Dim>
-output::Snapshot snapshot_of(Formulation<Dim>& formulation, double strain,
-                             const std::vector<scene::Field>& fields);
+output::Snapshot snapshot_of(const Preparation<Dim>& preparation, Formulation<Dim>& formulation,
+                             double strain);
 
 inline bool asks_for_snapshots(const scene::Scene& scene)
 {
@@ -30,7 +30,7 @@ class Snapshots final : public Observer<Dim> {
  private:
   bool pass_moments();
 
-  std::vector<scene::Field> fields_;
+  const Preparation<Dim>& preparation_;
   output::SnapshotSeries series_;
   std::vector<double> moments_;  ///< s, ascending
   double looked_ = -1;           ///< s, when last

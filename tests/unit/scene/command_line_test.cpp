@@ -1,6 +1,8 @@
 #include <mpm/core/error.hpp>
 #include <mpm/scene/command_line.hpp>
 
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,6 +55,13 @@ TEST(CommandLineOptions, OursMayStandBeforeAndBehindTheScene)
   EXPECT_EQ(results_folder(line, Scene{}), "out");
 }
 
+TEST(CommandLineOptions, AReportIsOfARun)
+{
+  EXPECT_TRUE(parsed({"a.yaml", "--report"}).report);
+  EXPECT_FALSE(parsed({"a.yaml"}).report);
+  EXPECT_THAT(refusal({"--report", "--check", "a.yaml"}), HasSubstr("--check runs nothing"));
+}
+
 TEST(CommandLineOptions, RanksToStudyAreAListAndBelongToCheck)
 {
   EXPECT_THAT(parsed({"--check", "--ranks", "8,64,512", "a.yaml"}).ranks, ElementsAre(8, 64, 512));
@@ -93,6 +102,28 @@ TEST(CommandLineOptions, PetscGetsItsOwnWithTheirValues)
   EXPECT_EQ(line.output, "out");
 }
 
+TEST(CommandLineOptions, ASelfTestTakesNoScene)
+{
+  const CommandLine line = parsed({"--self-test", "-o", "here", "--quiet"});
+  EXPECT_TRUE(line.self_test);
+  EXPECT_TRUE(line.quiet);
+  EXPECT_EQ(line.output, "here");
+  EXPECT_THAT(refusal({"--self-test", "a.yaml"}),
+              HasSubstr("a scene does not go with --self-test"));
+  for (const Words& other : {Words{"--check"}, Words{"--set", "steps=3"}, Words{"--restart"},
+                             Words{"--overwrite"}, Words{"--time-limit", "3 s"}}) {
+    Words words = other;
+    words.push_back("--self-test");
+    EXPECT_THAT(refusal(words), HasSubstr(other.front() + " does not go with --self-test"));
+  }
+}
+
+TEST(CommandLineOptions, HelpFitsATerminal)
+{
+  std::istringstream lines(answer({"--help"}));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+}
+
 TEST(CommandLineOptions, WrongUsageIsTold)
 {
   EXPECT_EQ(refusal({"--chek", "a.yaml"}), "unknown option '--chek' (did you mean '--check'?)");
@@ -111,6 +142,7 @@ TEST(CommandLineOptions, QuestionsAreAnsweredWithoutAScene)
   EXPECT_THAT(answer({"--help"}), HasSubstr("--set PATH=VALUE"));
   EXPECT_EQ(answer({"--version"}), "mpm_par 1.2.3\nPETSc 4.5\n");
   EXPECT_THAT(answer({"--input-reference"}), HasSubstr("## material"));
+  EXPECT_THAT(answer({"--input-schema"}), HasSubstr("\"strain_measure\""));
 }
 
 }  // namespace

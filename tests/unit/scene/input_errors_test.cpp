@@ -95,7 +95,7 @@ name:
                           "a.yaml:8:8: steps is 2.5 (must be a whole number).",
                           "a.yaml:9:20: numerics.scheme is 'flipp' (must be flip, pic, apic, tpic, "
                           "fmpm or xpic; did you mean 'flip'?).",
-                          "a.yaml:9:32: numerics.cfl is 'fast' (must be a number). Write e.g. 2.",
+                          "a.yaml:9:32: numerics.cfl is 'fast' (must be a number). Write e.g. 1.",
                           "a.yaml:9:45: numerics.ranks is 4 (must be a list of 2).",
                           "a.yaml:11:13: output.compress is 'maybe' (must be true or false).",
                           "a.yaml:12:11: output.fields is 'stress' (must be a list).",

@@ -91,5 +91,16 @@ TEST(InputReference, PageInDocsIsTheOneTheProgramWrites)
       << "Run: mpm_par --input-reference > docs/input_reference.md";
 }
 
+TEST(InputSchema, FileInDocsIsTheOneTheProgramWrites)
+{
+  std::ostringstream written;
+  write_input_schema(written);
+  std::ifstream file(MPM_DOCS_DIR "/scene.schema.json");
+  std::ostringstream shipped;
+  shipped << file.rdbuf();
+  EXPECT_TRUE(shipped.str() == written.str())
+      << "Run: mpm_par --input-schema > docs/scene.schema.json";
+}
+
 }  // namespace
 }  // namespace mpm::scene

@@ -45,6 +45,13 @@ TEST_F(Overrides, AreNamedInErrorsAfterThoseOfTheFile)
                           "Write e.g. 10 m/s."));
 }
 
+TEST_F(Overrides, AreNamedWhereTheMapThatTheyMakeLacksAKey)
+{
+  EXPECT_THAT(problems(smallest, {"free_motion.sides=free"}),
+              testing::Contains(testing::StartsWith(
+                  "--set free_motion.sides=free: free_motion.end_time is missing")));
+}
+
 TEST_F(Overrides, ThatAreNoAssignment)
 {
   const std::string remedy =
@@ -58,9 +65,11 @@ TEST_F(Overrides, ThatLeadNowhere)
 {
   EXPECT_THAT(
       problems(smallest, {"materials[1].density=1 g/cm^3", "loading.speed.x=3"}),
-      ElementsAre("--set materials[1].density=1 g/cm^3: there is no materials[1] (materials "
-                  "has 0 entries).",
-                  "--set loading.speed.x=3: loading.speed is 10 m/s (has no key 'x')."));
+      ElementsAre(
+          "--set materials[1].density=1 g/cm^3: there is no materials[1] (materials "
+          "has 0 entries). Count them from 0.",
+          "--set loading.speed.x=3: loading.speed is 10 m/s (has no key 'x'). Set loading.speed "
+          "as a whole."));
 }
 
 }  // namespace

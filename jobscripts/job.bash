@@ -1,0 +1,72 @@
+# What the jobscripts for Slurm and PBS share; they source it.
+#
+# A job that runs out of time leaves a checkpoint, goes back into the queue and goes on from it, until
+# the run is done. It does not go back if nothing was won since it started, if it was cancelled, or if
+# the run ended with any other status than "not finished, nothing wrong" (docs/restart.md).
+
+# The program of this build, or the one in PATH.
+find_mpm_par() {
+  mpm_par=${MPM_PAR:-build/mpm_par}
+  if [ -z "${MPM_PAR:-}" ] && [ ! -x "$mpm_par" ]; then mpm_par=$(command -v mpm_par || true); fi
+  if [ ! -x "$mpm_par" ]; then
+    echo "$PWD: no program '${mpm_par:-build/mpm_par}' here or in PATH: build it (docs/building.md)," \
+      "submit from the top folder, or name it in the variable MPM_PAR." >&2
+    exit 1
+  fi
+}
+
+# The step of the newest checkpoint; nothing if there is none.
+newest_checkpoint() {
+  if [ -d "$1/checkpoints" ]; then
+    find "$1/checkpoints" -name '*.h5' -printf '%f\n' | sort | tail -n 1 | sed 's/\.h5$//'
+  fi
+}
+
+# The same `arguments` for a job that comes back: from the checkpoint, or anew if a node failed before
+# there was one.
+go_on_with() {
+  arguments=()
+  local argument
+  for argument; do
+    case $argument in --overwrite | --restart) ;; *) arguments+=("$argument") ;; esac
+  done
+  if [ -n "$(progress)" ]; then arguments+=(--restart); else arguments+=(--overwrite); fi
+}
+
+# run_in_job SIGNAL STATUS COMMAND [ARGUMENT ...]
+#
+# Runs the command. The scheduler's warning, USR1, is handed on to it as SIGNAL, and it is expected to
+# end with STATUS if it has not finished. The script defines two functions before: `progress` prints
+# how far the work is, and `queue_again` puts this job back into the queue. Where no warning comes,
+# because the command watches the clock itself, `out_of_time=yes` is set before.
+run_in_job() {
+  local signal=$1 unfinished=$2 before after status
+  shift 2
+  before=$(progress)
+  out_of_time=${out_of_time:-}
+  cancelled=
+  # Tasks get signals through their launcher, which hands them on.
+  trap 'out_of_time=yes; interrupted=yes; kill -s "$signal" "$launcher" 2>/dev/null || true' USR1
+  trap 'cancelled=yes; interrupted=yes; kill -s TERM "$launcher" 2>/dev/null || true' TERM
+  "$@" &
+  launcher=$!
+  interrupted=yes
+  while [ -n "$interrupted" ]; do  # a signal ends `wait`, not the command
+    interrupted=
+    status=0
+    wait "$launcher" || status=$?
+  done
+  trap '' USR1 TERM
+  after=$(progress)
+  echo "ended with status $status, $(date)"
+  if [ "$status" -ne "$unfinished" ] || [ -z "$out_of_time" ] || [ -n "$cancelled" ]; then
+    exit "$status"
+  fi
+  if [ "$before" = "$after" ]; then
+    echo "nothing was won since the job started (${after:-no checkpoint}): not queued again." \
+      "Ask for more time." >&2
+    exit "$status"
+  fi
+  echo "not finished (${before:-start} -> $after): back into the queue"
+  queue_again
+}

@@ -1,0 +1,1 @@
+"""mpm_report: a page of pictures and figures of one run."""

@@ -1,0 +1,82 @@
+"""What is wrong with a scene, an image or a command line is said in a few lines, with the place, before
+anything is written: exit status 2, in bounded time and memory."""
+import concurrent.futures
+import os
+import pathlib
+import re
+import resource
+import subprocess
+import tempfile
+import unittest
+
+from cases import all_cases
+
+SECONDS = 10        # of processor time: most take a tenth of one
+MEMORY = 1_000_000  # KiB at most
+LETTERS = 4000      # of a message
+LINES = 22
+# A sentence of what to do, or what would be right.
+REMEDY = re.compile(r"\. [A-Z][a-z]+ |must be |needs |did you mean|known: |: use ")
+
+
+def defects(case):
+    """What is wrong with how a wrong input is answered."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "scene.yaml").write_bytes(case.scene)
+        for path, contents in case.files.items():
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).write_bytes(contents)
+        before = sorted(folder.rglob("*"))
+        settings = [word for setting in case.settings for word in ("--set", setting)]
+        with open(folder.parent / (folder.name + ".errors"), "w+b") as errors:
+            os.unlink(errors.name)
+            run = subprocess.Popen(
+                [os.environ["MPM_PAR"], case.file, "--output", "results/new", *settings, *case.arguments],
+                cwd=folder, stdout=subprocess.DEVNULL, stderr=errors,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS)))
+            _, status, used = os.wait4(run.pid, 0)
+            run.returncode = os.waitstatus_to_exitcode(status)
+            errors.seek(0)
+            raw = errors.read()
+        found = []
+        try:
+            message = raw.decode()
+        except UnicodeDecodeError:
+            message = raw.decode(errors="replace")
+            found.append("a message that is not UTF-8")
+        if run.returncode != 2:
+            found.append(f"status {run.returncode}")
+        if used.ru_maxrss > MEMORY:
+            found.append(f"{used.ru_maxrss} KiB of memory")
+        if sorted(folder.rglob("*")) != before:
+            found.append("files were written")
+        found += [f"no {words!r}" for words in case.says if words not in message]
+        if len(message) > LETTERS or message.count("\n") > LINES:
+            found.append(f"a message of {len(message)} letters")
+        if any(ord(letter) < 32 and letter != "\n" for letter in message):
+            found.append("control characters in the message")
+        if not REMEDY.search(message):
+            found.append("no remedy")
+        return found, message
+
+
+class BadInput(unittest.TestCase):
+    def test_every_case(self):
+        cases = all_cases()
+        self.assertGreater(len(cases), 150)
+        self.assertEqual(len(cases), len({case.name for case in cases}))
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            for case, (found, message) in zip(cases, pool.map(defects, cases)):
+                with self.subTest(case.name[:80]):
+                    self.assertEqual(found, [], message[:2000])
+
+    def test_a_good_scene_passes(self):
+        from cases import Case
+        found, _ = defects(Case("good", ()))
+        self.assertIn("status 0", found)
+        self.assertIn("files were written", found)
+
+
+if __name__ == "__main__":
+    unittest.main()

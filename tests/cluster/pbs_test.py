@@ -1,0 +1,124 @@
+"""Jobscripts for PBS, with a stand-in for qsub that keeps what it is asked for: what they do with
+a run that ends early, goes on, fails or is cancelled."""
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).parents[2]
+SCRATCH = pathlib.Path(os.environ["MPM_SCRATCH"])
+RING = (ROOT / "inputs" / "benchmarks" / "crushed_ring.yaml").read_text() \
+    .replace("speed: 10 m/s", "speed: 0.1 m/s") \
+    .replace("history_lines: 400", "history_lines: 40000")
+# -v: the variables that it names, as they are.
+QSUB = f"""#!{sys.executable}
+import json, os, sys
+*_, names, script = sys.argv
+asked = {{"words": sys.argv[1:], "script": script,
+         "environment": {{name: os.environ[name] for name in names.split(",")
+                         if name in os.environ}}}}
+with open("asked.json", "x") as file:
+    json.dump(asked, file)
+"""
+
+
+class PbsTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = SCRATCH / self.id().split(".")[-1]
+        shutil.rmtree(self.folder, ignore_errors=True)
+        (self.folder / "bin").mkdir(parents=True)
+        self.program("bin/qsub", QSUB)
+        (self.folder / "nodes").write_text(2 * f"{socket.gethostname()}\n")
+        self.scene = self.folder / "ring.yaml"
+        self.scene.write_text(RING)
+
+    def program(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        path.chmod(0o755)
+        return path
+
+    def start(self, script, number, **variables):
+        """As PBS would."""
+        environment = {**os.environ, "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}",
+                       "PBS_O_WORKDIR": str(self.folder), "PBS_JOBID": f"{number}.server",
+                       "PBS_NODEFILE": str(self.folder / "nodes"), "SCENE": "ring.yaml",
+                       "MPM_JOBSCRIPTS": str(ROOT / "jobscripts"), "TIME_LIMIT": "0.6 s",
+                       **variables}
+        return subprocess.Popen(["bash", ROOT / "jobscripts" / script], cwd="/", text=True,
+                                env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def run_it(self, *arguments, status, **variables):
+        job = self.start(*arguments, **variables)
+        said, _ = job.communicate(timeout=120)
+        self.assertEqual(job.returncode, status, said)
+        return said
+
+    def asked(self):
+        """What qsub was asked for since the last time; None if it was not."""
+        file = self.folder / "asked.json"
+        if not file.exists():
+            return None
+        asked = json.loads(file.read_text())
+        file.unlink()
+        return asked
+
+    def goes_on(self, script):
+        arguments = {"ARGUMENTS": "--set 'title=The ring, crushed' --overwrite"}
+        said = self.run_it(script, 12, status=0, **arguments)
+        asked = self.asked()
+        self.assertTrue(asked, said)
+        self.assertEqual(asked["script"], str(ROOT / "jobscripts" / script))
+        results = self.folder / "results" / "ring-12"
+        [checkpoint] = (results / "checkpoints").glob("*.h5")
+        # An end that may change, so that the second job reaches it.
+        self.scene.write_text(RING + f"steps: {int(checkpoint.stem) + 200}\n")
+        said = self.run_it(script, 13, status=0, **{**asked["environment"], "TIME_LIMIT": "1 h"})
+        self.assertIn(f"goes on from results/ring-12/checkpoints/{checkpoint.name}", said)
+        self.assertIsNone(self.asked())
+        whole = self.folder / "whole"
+        launch = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], "2"]
+        subprocess.run([*launch, os.environ["MPM_PAR"], "--quiet", self.scene, "-o", whole],
+                       check=True, capture_output=True)
+        self.assertEqual((whole / "history.csv").read_text(), (results / "history.csv").read_text())
+        self.assertIn("The ring, crushed", (results / "scene.yaml").read_text())
+
+    def test_out_of_time_a_job_submits_itself_and_goes_on(self):
+        self.goes_on("one_node.pbs")
+
+    def test_on_many_nodes_too(self):
+        self.goes_on("many_nodes.pbs")
+
+    def test_without_progress_it_does_not(self):
+        stuck = self.program("stuck", "#!/bin/sh\nexit 75\n")
+        said = self.run_it("one_node.pbs", 1, status=75, MPM_PAR=str(stuck), MPM_LAUNCH="env")
+        self.assertIn("nothing was won", said)
+        self.assertIsNone(self.asked())
+
+    def test_other_ends_are_those_of_the_job(self):
+        self.scene.write_text(RING.replace("youngs_modulus", "youngs_modulas"))
+        said = self.run_it("one_node.pbs", 1, status=2)
+        self.assertIn("did you mean 'youngs_modulus'?", said)
+        self.assertIn("which scene?", self.run_it("one_node.pbs", 1, status=1, SCENE=""))
+        self.assertIn("MPM_PAR", self.run_it("one_node.pbs", 1, status=1, MPM_PAR="no/program"))
+        self.assertIsNone(self.asked())
+
+    def test_cancelled_it_does_not_submit_itself(self):
+        job = self.start("one_node.pbs", 7, TIME_LIMIT="1 h", MPM_LAUNCH="env")
+        history = self.folder / "results" / "ring-7" / "history.csv"
+        while not history.exists() and job.poll() is None:
+            time.sleep(0.05)
+        job.send_signal(signal.SIGTERM)
+        said, _ = job.communicate(timeout=60)
+        self.assertEqual(job.returncode, 75, said)
+        self.assertIsNone(self.asked())
+
+
+if __name__ == "__main__":
+    unittest.main()

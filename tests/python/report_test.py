@@ -1,0 +1,232 @@
+"""mpm_report on runs of each kind: a page that stands alone, and what it says."""
+import html.parser
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+import needed
+
+needed.modules("numpy", "h5py", "yaml", "matplotlib", "PIL")
+
+from PIL import Image  # noqa: E402
+
+from program import ProgramTest, mpm_par, scene, summary  # noqa: E402
+
+REPORT = pathlib.Path(os.environ["MPM_BUILD"]) / "mpm_report"
+TUBES = pathlib.Path(__file__).parents[2] / "inputs" / "tutorial" / "tubes.yaml"
+VOID = {"meta", "img", "source", "br", "link", "hr", "input"}
+SPARSE = ["--at", "100%", "--film-size", "0"]  # the last snapshot only
+SMALL = ["grid.cells=[26, 22]", "output.snapshots=4",
+         "output.fields=[stress, plastic_work, id, rank]"]
+
+
+class Page(html.parser.HTMLParser):
+    """Raises if elements do not close in their order; keeps texts, pictures and addresses."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.seen, self.words, self.images = [], [], [], []
+        self.ids, self.addresses = [], []
+        self.feed(text)
+        self.close()
+        assert not self.open, f"not closed: {self.open}"
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.seen.append(tag)
+        if tag not in VOID:
+            self.open.append(tag)
+        if tag == "img":
+            self.images.append(attributes)
+        self.ids += [attributes["id"]] if "id" in attributes else []
+        self.addresses += [attributes[name] for name in ("src", "href", "srcset", "action")
+                           if name in attributes]
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open[-1] == tag, f"</{tag}> in {self.open}"
+        self.open.pop()
+
+    def handle_data(self, data):
+        if self.open[-1:] != ["style"]:
+            self.words.append(data)
+
+    @property
+    def text(self):
+        return " ".join(" ".join(self.words).split())
+
+
+def mpm_report(*words):
+    return subprocess.run([REPORT, *map(str, words)], capture_output=True, text=True, timeout=120)
+
+
+class Report(ProgramTest):
+    def page_of(self, folder, *words):
+        run = mpm_report(folder, *words)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stdout, rf"^report in {folder}/report.html \([0-9.]+ s\)\n$")
+        return self.checked(folder)
+
+    def checked(self, folder):
+        """Well formed, alone, and with words for whoever does not see."""
+        text = (folder / "report.html").read_text()
+        page = Page(text)
+        for address in page.addresses:
+            self.assertTrue(address.startswith(("data:image/", "#")), address[:80])
+        for rule in re.findall(r"url\(.*?\)|@import.*?;", text.split("</style>")[0]):
+            self.fail(f"an address in the style: {rule}")
+        for address in page.addresses:
+            if address.startswith("#"):
+                self.assertIn(address[1:], page.ids)
+        self.assertEqual(len(page.ids), len(set(page.ids)))
+        for image in page.images:
+            self.assertGreater(len(image["alt"]), 20, image["alt"])
+        self.assertEqual(page.seen.count("h1"), 1)
+        self.assertGreaterEqual(page.seen.count("th"), 3)
+        self.assertIn('lang="en"', text)
+        self.assertIn('name="viewport"', text)
+        self.assertIn("prefers-color-scheme: dark", text)
+        self.assertNotIn("<script", text)
+        pictures = {path.name for path in (folder / "report").iterdir()}
+        self.assertFalse([name for name in pictures if not name.endswith((".png", ".svg"))])
+        return page
+
+    def test_updated_lagrangian_in_the_plane(self):
+        folder = self.results("honeycomb", *SMALL, ranks=2)
+        page = self.page_of(folder, "--at", "9%", "17%", "--window", "west=0:0.5mm",
+                            "--window", "south east=0.5mm:1mm,0:0.4mm")
+        found, text = summary(folder), page.text
+        for words in ("The run reached its end, 25 % strain", "modulus",
+                      f"{found['modulus'] / 1e6:.4g} MPa", "south east", "Ranks",
+                      "updated Lagrangian", found["provenance"]["git"], "Nairn",
+                      *found["warnings"]):
+            self.assertIn(" ".join(words.split()), text)
+        self.assertIn(f"{100 * found['compression']['buckling']['strain']:.4g} %", text)
+        files = {path.name for path in (folder / "report").iterdir()}
+        self.assertEqual(files, {
+            "curve.svg", "curve.png", "energies.svg", "energies.png", "energy_error.svg",
+            "energy_error.png", "windows.svg", "windows.png", "ranks.svg", "ranks.png", "film.png",
+            "plastic_work_000001.png", "plastic_work_000002.png", "axial_stress_000001.png",
+            "axial_stress_000002.png"})
+        with Image.open(folder / "report" / "film.png") as film:
+            self.assertEqual(film.n_frames, 4)
+        # Another report takes the place of the first.
+        self.page_of(folder, "--film-size", "0")
+        for name in "film.png", "windows.svg", "plastic_work_000001.png":
+            self.assertEqual((folder / "report" / name).exists(), name.startswith("plastic"), name)
+
+    def test_windows_and_error_bars_say_what_their_files_say(self):
+        folder = self.results("honeycomb", *SMALL, ranks=2)
+        page = self.page_of(folder, "--window", "all=-1mm:2mm", *SPARSE)
+        row = re.search(r"all (\S+) mm³ (\S+) MJ/m³ 100 %", page.text)
+        self.assertTrue(row, page.text)
+        from mpm_par import open_run
+        work = open_run(folder).history["plastic_work"][-1]
+        self.assertAlmostEqual(float(row[1]) * 1e-9 * float(row[2]) * 1e6 / work, 1, delta=2e-3)
+        self.check_error_bars(folder)
+
+    def test_total_lagrangian_in_the_plane(self):
+        folder = self.results(
+            "honeycomb", *SMALL[:2], "numerics.formulation=total_lagrangian",
+            "loading.strain=9 %", "output.fields=[plastic_work]",
+            "specimen.windows=[{name: left half, x: [0 %, 50 %]}]", ranks=2)
+        page = self.page_of(folder, *SPARSE)
+        for words in ("total Lagrangian", "left half", "no axial stress is shown"):
+            self.assertIn(words, page.text)
+
+    def test_in_space_shows_a_section(self):
+        folder = self.folder / "tubes"
+        run = mpm_par(TUBES, "--output", folder, "--set", "loading.strain=8 %",
+                      "--set", "output.snapshots=3", ranks=2)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("shown is a section about one particle thick at z = 5 µm",
+                      self.page_of(folder, *SPARSE).text)
+        self.assertIn("at z = 2 µm", self.page_of(folder, "--section", "2um", *SPARSE).text)
+
+    def test_a_run_that_was_interrupted(self):
+        folder = self.folder / "results"
+        run = mpm_par(scene("honeycomb"), "--output", folder, "--time-limit", "0.2 s",
+                      "--set", "grid.cells=[100, 86]", ranks=2)
+        self.assertEqual(run.returncode, 75, run.stderr)
+        text = self.page_of(folder).text
+        for words in ("This run did not reach its end", "of 25 %", "--restart",
+                      "no lines are drawn into the curve"):
+            self.assertIn(words, text)
+        self.assertIn("It fell ill & <ended>.",
+                      self.page_of(folder, "--remark", "It fell ill & <ended>.", *SPARSE).text)
+
+    def test_a_run_of_few_steps_says_so(self):
+        folder = self.results("honeycomb", "steps=400", *SMALL)
+        self.assertIn("This run stopped early: its scene limits the steps",
+                      self.page_of(folder, *SPARSE).text)
+
+    def test_without_piston_and_without_snapshots(self):
+        folder = self.results("punch", "output.snapshots=3", "free_motion.end_time=6 us", ranks=2)
+        text = self.page_of(folder).text
+        for words in ("No piston loads this specimen", "t = 6 µs", "No plastic work has been done",
+                      "von Mises stress"):
+            self.assertIn(words, text)
+        folder = self.results("confined_block", label="bare")
+        self.assertIn("left no snapshots", self.page_of(folder).text)
+
+    def check_error_bars(self, folder):
+        """Taken of the same scene, refused of another."""
+        modulus = summary(folder)["modulus"]
+        bar = {"value": modulus, "error": 0.0123 * modulus, "basis": "gci", "remark": ""}
+        record = self.folder / "bar" / "error_bar.json"
+        record.parent.mkdir()
+        record.write_text(json.dumps({"figures": {"modulus": bar}}))
+        page = self.page_of(folder, "--error-bar", record.parent, *SPARSE)
+        self.assertIn(f"{modulus / 1e6:.4g} ± {0.0123 * modulus / 1e6:.2g} MPa", page.text)
+        record.write_text(json.dumps({"figures": {"modulus": {**bar, "value": 2 * modulus}}}))
+        run = mpm_report(folder, "--error-bar", record.parent)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("is of another scene", run.stderr)
+
+    def test_wrong_use_has_status_2_and_one_message(self):
+        folder = self.results("confined_block", label="bare")
+        nowhere = self.folder / "nowhere"
+        for words, said in (
+                ([nowhere], f"{nowhere}: is no folder. Name the folder"),
+                ([self.folder], "holds no history.csv"),
+                ([folder, "--error-bar", nowhere], "holds no error_bar.json"),
+                ([folder, "--at", "5 mm"], "--at 5 mm: is a length, not a number or a time"),
+                ([folder, "--window", "a"], "--window a: is no window"),
+                ([folder, "--window", "a=1mm:0"], "1mm:0 does not rise"),
+                ([folder, "--window", "a=1:2"], "--window a 1: is a number, not a length"),
+                ([folder, "--section", "5"], "--section 5: is a number"),
+                ([folder, "--work-limit", "0"], "--work-limit 0: is not above 0"),
+                ([folder, "--film-size", "0.05"], "--film-size 0.05: is below 0.1")):
+            run = mpm_report(*words)
+            self.assertEqual(run.returncode, 2, run.stdout)
+            self.assertIn(said, run.stderr)
+            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        self.assertEqual(mpm_report().returncode, 2)
+        (folder / "history.csv").write_text("time [s]\n")
+        run = mpm_report(folder)
+        self.assertEqual((run.returncode, run.stdout), (2, ""))
+        self.assertIn("no line of values yet", run.stderr)
+        self.assertFalse((folder / "report.html").exists())
+
+    def test_help_fits_the_terminal(self):
+        run = mpm_report("--help")
+        self.assertEqual(run.returncode, 0)
+        self.assertLessEqual(max(map(len, run.stdout.splitlines())), 80)
+        self.assertIn("docs/reports.md", run.stdout)
+
+    def test_a_python_without_matplotlib_is_told(self):
+        """The standard library alone, as `python3 -I -S` has it."""
+        alone = self.folder / "python"
+        alone.write_text(f'#!/bin/sh\nexec {shutil.which("python3")} -S "$@"\n')
+        alone.chmod(0o755)
+        run = subprocess.run([REPORT, self.folder], capture_output=True, text=True,
+                             env={**os.environ, "MPM_REPORT_PYTHON": str(alone)})
+        self.assertEqual(run.returncode, 4, run.stderr)
+        self.assertRegex(run.stderr, r"^no report: install .*python3-matplotlib.* for .*\.\n$")
+
+
+if __name__ == "__main__":
+    unittest.main()

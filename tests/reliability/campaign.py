@@ -1,0 +1,117 @@
+"""Does faults to runs of mpm_par, many times over, and counts the runs that were lost.
+
+    campaign.py build/mpm_par [--kills 240] [--others 40] [--seed 1] [--write]
+
+    --kills    kill -9 at random moments, on 1 to 4 ranks
+    --others   of each other fault
+    --failing-writes build/tests/reliability/libfailing_writes.so
+    --write    the table into docs/reliability.md
+
+Needs h5py, and the right to mount for full disks: what is missing is left out, and said. Ctrl-C
+ends it with what was tried until then. The exit status is 1 if a run was lost."""
+import argparse
+import collections
+import itertools
+import os
+import pathlib
+import platform
+import signal
+import sys
+import tempfile
+import time
+
+from faults import Faults
+from trials import Lost, Program
+
+PROJECT = pathlib.Path(__file__).parents[2]
+PAGE = PROJECT / "docs" / "reliability.md"
+BEGIN, END = "<!-- campaign.py writes from here -->\n", "<!-- to here -->\n"
+
+
+def plan(faults, kills, others):
+    """(name of a missing tool or None, trial) for each trial, by kind."""
+    ranks = itertools.cycle((1, 2, 3, 4))
+    kinds = [lambda n: faults.kill_one_rank(n), lambda n: faults.kill_all(n),
+             lambda n: faults.kill_one_rank(n, during_output=True),
+             lambda n: faults.kill_all(n, during_output=True)]
+    for k in range(kills):
+        yield None, kinds[k // 4 % 4], next(ranks)
+    library = None if faults.program.failing_writes else "--failing-writes"
+    mount = None if os.geteuid() == 0 else "the right to mount"
+    for missing, kind in ((None, lambda n: faults.signalled(n, signal.SIGTERM)),
+                          (None, lambda n: faults.signalled(n, signal.SIGINT)),
+                          (None, lambda n: faults.signalled(n, signal.SIGUSR1)),
+                          (None, faults.out_of_time), (library, faults.failing_writes),
+                          (None, faults.files_of_limited_size), (mount, faults.full_disk),
+                          (None, faults.damaged_checkpoint)):
+        for _ in range(others):
+            yield missing, kind, next(ranks)
+
+
+def carry_out(faults, trials):
+    outcomes, lost, missing = [], [], set()
+    for tool, trial, ranks in trials:
+        if tool:
+            missing.add(tool)
+            continue
+        try:
+            outcome = trial(ranks)
+            outcomes.append(outcome)
+            print(f"{len(outcomes):4} {outcome.fault}, {ranks} ranks: status {outcome.status}, "
+                  f"{100 * outcome.lost_share:.1f} % again  {outcome.message[:100]}", flush=True)
+        except KeyboardInterrupt:
+            break
+        except Lost as why:
+            lost.append(f"{ranks} ranks: {why}")
+            print("LOST", lost[-1], flush=True)
+    return outcomes, lost, missing
+
+
+def table(outcomes, lost, missing, seconds):
+    """Markdown."""
+    kinds = collections.defaultdict(list)
+    for outcome in outcomes:
+        kinds[outcome.fault].append(outcome)
+    lines = ["| fault | tried | before the end | status | runs lost | most work to do again |",
+             "|---|---|---|---|---|---|"]
+    for fault, found in kinds.items():
+        hit = [outcome for outcome in found if outcome.status != 0]
+        states = ", ".join(str(s) for s in sorted({outcome.status for outcome in hit}, key=abs))
+        most = max((outcome.lost_share for outcome in found), default=0)
+        lines.append(f"| {fault} | {len(found)} | {len(hit)} | {states} | 0 | {100 * most:.1f} % |")
+    lines += ["", f"{len(outcomes) + len(lost)} trials in {seconds / 60:.0f} minutes on {os.cpu_count()} cores of "
+              f"{platform.machine()}; runs lost: **{len(lost)}**."]
+    lines += [f"- lost: {why}" for why in lost]
+    if missing:
+        lines += ["", "Not tried for want of " + ", ".join(sorted(missing)) + "."]
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("mpm_par", type=pathlib.Path)
+    options.add_argument("--kills", type=int, default=240)
+    options.add_argument("--others", type=int, default=40)
+    options.add_argument("--failing-writes", type=pathlib.Path)
+    options.add_argument("--seed", type=int, default=1)
+    options.add_argument("--write", action="store_true")
+    asked = options.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        faults = Faults(Program(asked.mpm_par.resolve(), os.environ.get("MPM_MPIEXEC", "mpirun"),
+                                os.environ.get("MPM_NUMPROC_FLAG", "-n"),
+                                asked.failing_writes and asked.failing_writes.resolve()),
+                        scratch, asked.seed)
+        begin = time.monotonic()
+        trials = list(plan(faults, asked.kills, asked.others))
+        faults.random.shuffle(trials)
+        outcomes, lost, missing = carry_out(faults, trials)
+        text = table(outcomes, lost, missing, time.monotonic() - begin)
+    print(text)
+    if asked.write:
+        before, rest = PAGE.read_text().split(BEGIN)
+        PAGE.write_text(before + BEGIN + text + END + rest.split(END)[1])
+    return 1 if lost else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
