@@ -35,8 +35,21 @@ add_library(mpm_common_flags INTERFACE)
 # of its own strings overlapping: none of these warnings.
 # errno and floating-point traps are never looked at; NaN and infinity keep their meaning.
 target_compile_options(mpm_common_flags INTERFACE
-                       -Wall -Wextra -Wno-psabi -Wno-uninitialized -Wno-maybe-uninitialized
-                       -Wno-restrict -fno-math-errno -fno-trapping-math)
+                       -Wall -Wextra -Wno-psabi -Wno-uninitialized
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized$<SEMICOLON>-Wno-restrict>
+                       -fno-math-errno -fno-trapping-math)
+
+set(MPM_SANITIZE "" CACHE STRING
+    "Sanitizers that watch over program and tests, such as address,undefined: for a build folder of its own")
+if(MPM_SANITIZE)
+  # Of the Release build's optimisation little is left: its vector code takes hours to instrument.
+  target_compile_options(mpm_common_flags INTERFACE -fsanitize=${MPM_SANITIZE}
+                         -fno-sanitize-recover=all -fno-omit-frame-pointer -g1 -O1 -UNDEBUG)
+  target_link_options(mpm_common_flags INTERFACE -fsanitize=${MPM_SANITIZE})
+endif()
+option(MPM_BUILD_FUZZERS "Build libFuzzer's targets for the readers of scenes and images (needs Clang)"
+       OFF)
+set(MPM_FUZZ_SECONDS 60 CACHE STRING "Seconds that each of libFuzzer's tests looks for failures")
 add_library(mpm_flags INTERFACE)
 target_compile_options(mpm_flags INTERFACE ${MPM_VECTOR_FLAGS})
 target_link_libraries(mpm_flags INTERFACE mpm_common_flags)

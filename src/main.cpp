@@ -1,6 +1,7 @@
 /// mpm_par: start, read, run, and say on one rank what went wrong.
 
 #include <mpm/core/error.hpp>
+#include <mpm/micrograph/preview.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/scene/command_line.hpp>
 #include <mpm/scene/reader.hpp>
@@ -8,6 +9,7 @@
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/run.hpp>
 #include <mpm/simulation/self_test.hpp>
+#include <mpm/simulation/step_measurement.hpp>
 
 #include <cstdio>
 #include <optional>
@@ -27,6 +29,9 @@ void print_once(const std::string& text)
   if (rank_of(MPI_COMM_WORLD) == 0) fmt::print("{}", text);
 }
 
+/// Of steps, to say how long a run takes.
+constexpr double seconds_of_measurement = 1;
+
 /// How the program ends, on this rank.
 struct Ending {
   int status = int(ExitStatus::done);
@@ -34,20 +39,38 @@ struct Ending {
   std::filesystem::path results{};  ///< of a run that has begun; empty without one
 };
 
+/// The specimen as it was understood. Collective.
+template <int Dim>
+void leave_preview(const Preparation<Dim>& preparation, const std::filesystem::path& file)
+{
+  on_rank_zero(preparation.comm, [&] {
+    const auto& read = preparation.scene.specimen.micrograph;
+    std::error_code none;
+    if (read && std::filesystem::equivalent(read->file, file, none))
+      throw InputError(fmt::format(
+          "--preview {} is the micrograph of the scene. Name another file.", file.string()));
+    micrograph::write_preview(preparation.specimen, file);
+  });
+}
+
 template <int Dim>
 void plan_and_run(const scene::CommandLine& command_line, const scene::Scene& scene,
                   std::optional<micrograph::Picture> picture, Ending& ending)
 {
   const Preparation<Dim> preparation(MPI_COMM_WORLD, scene, std::move(picture));
+  std::optional<StepMeasurement> measured;
+  if (command_line.check && !command_line.quiet)
+    measured = measure_steps(preparation, seconds_of_measurement);
   if (rank_of(MPI_COMM_WORLD) == 0) {
     if (command_line.quiet) {
       for (const std::string& warning : preparation.warnings) spdlog::warn(warning);
     } else {
-      fmt::print("{}", plan_text(preparation));
+      fmt::print("{}", plan_text(preparation, measured ? &*measured : nullptr));
       if (!command_line.ranks.empty())
         fmt::print("{}", rank_study_text(preparation, command_line.ranks));
     }
   }
+  if (command_line.preview) leave_preview(preparation, *command_line.preview);
   if (command_line.check) return;
   std::vector<std::filesystem::path> pictures;
   if (scene.specimen.micrograph) pictures.push_back(scene.specimen.micrograph->file);

@@ -28,10 +28,21 @@ std::optional<Launched> launched()
   return std::nullopt;
 }
 
-Places places_of(MPI_Comm comm)
+namespace {
+
+/// To be freed.
+MPI_Comm node_of(MPI_Comm comm)
 {
   MPI_Comm node;
   MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  return node;
+}
+
+}  // namespace
+
+Places places_of(MPI_Comm comm)
+{
+  MPI_Comm node = node_of(comm);
   cpu_set_t cores;
   CPU_ZERO(&cores);
   // Fails where there are more cores than the set has room for: as many as that, then.
@@ -42,6 +53,14 @@ Places places_of(MPI_Comm comm)
   MPI_Comm_free(&node);
   sum_over_ranks(comm, sums);
   return {int(sums[0]), int(sums[1])};
+}
+
+int ranks_on_this_node(MPI_Comm comm)
+{
+  MPI_Comm node = node_of(comm);
+  const int ranks = ranks_of(node);
+  MPI_Comm_free(&node);
+  return ranks;
 }
 
 }  // namespace mpm

@@ -34,7 +34,13 @@ struct Options {
     app.footer("Run in parallel: mpirun -n N mpm_par [options] scene.yaml [PETSc options]");
     app.set_version_flag("--version", version);
     app.add_option("scene", command_line.scene, "Scene file (YAML)");
-    app.add_flag("--check", command_line.check, "Read the scene, print the plan, run nothing");
+    app.add_flag(
+        "--check", command_line.check,
+        "Read the scene, print the plan with the time of a\nrun by a second of steps; leave "
+        "no results");
+    app.add_option("--preview", command_line.preview,
+                   "With the plan: a picture (PNG) of the specimen as\nit was understood")
+        ->type_name("FILE");
     app.add_option("--ranks", command_line.ranks,
                    "With the plan: balance and messages on so many\nranks, without running on them")
         ->type_name("P[,P...]")
@@ -91,7 +97,8 @@ std::vector<std::string> without_petsc(const std::vector<std::string>& arguments
       if (std::ranges::find(names, name) == names.end())
         throw InputError(fmt::format("unknown option '{}' ({})", name, suggestion(name, names)));
       ours.push_back(word);
-      if (word == "--set" || word == "--output" || word == "--ranks" || word == "--time-limit")
+      if (word == "--set" || word == "--output" || word == "--ranks" || word == "--time-limit" ||
+          word == "--preview")
         take_next(ours);
       if (word == "--restart" && i + 1 < arguments.size() && arguments[i + 1].ends_with(".h5"))
         given.checkpoint = arguments[++i];
@@ -138,8 +145,8 @@ void take_continuation(Options& options)
 /// It has scenes of its own.
 void refuse_beside_self_test(const CLI::App& app)
 {
-  for (const std::string other :
-       {"scene", "--check", "--ranks", "--restart", "--overwrite", "--time-limit", "--set"})
+  for (const std::string other : {"scene", "--check", "--preview", "--ranks", "--restart",
+                                  "--overwrite", "--time-limit", "--set"})
     if (app.count(other) > 0)
       throw InputError(
           fmt::format("{} does not go with --self-test, which has scenes of its own. "
@@ -179,7 +186,15 @@ std::variant<CommandLine, Answer> parse_command_line(const std::vector<std::stri
   if (!options.command_line.ranks.empty() && !options.command_line.check)
     throw InputError("--ranks belongs to --check. Start a run with mpirun -n RANKS.");
   if (options.command_line.report && options.command_line.check)
-    throw InputError("--report is of a run, and --check runs nothing. Give one of them.");
+    throw InputError("--report is of a run, and --check leaves none. Give one of them.");
+  if (const auto& preview = options.command_line.preview) {
+    if (!options.command_line.check)
+      throw InputError("--preview belongs to --check. A run leaves its own, specimen.png.");
+    if (preview->extension() != ".png")
+      throw InputError(
+          fmt::format("--preview is {} (a PNG is written). Name a file that ends with .png.",
+                      preview->string()));
+  }
   return std::move(options.command_line);
 }
 

@@ -4,8 +4,13 @@
 #include <mpm/core/printable.hpp>
 
 #include <algorithm>
+#include <optional>
+#include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
+#include <yaml-cpp/anchor.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 namespace mpm::scene {
@@ -82,6 +87,56 @@ class TreeBuilder {
   long nodes_ = 0;
 };
 
+/// Looks for a second document. The library's own list of all documents never ends where a stray
+/// bracket or comma, which belongs to no document, is taken for an empty one again and again.
+class DocumentCounter final : public YAML::EventHandler {
+ public:
+  /// Where it starts; what belongs to no document counts as one. Throws YAML::Exception.
+  static std::optional<YAML::Mark> second_of(const std::string& text)
+  {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    DocumentCounter counter;
+    while (counter.documents_ < 2 && parser.HandleNextDocument(counter)) {
+    }
+    return counter.documents_ < 2 ? std::nullopt : std::optional(counter.last_);
+  }
+
+ private:
+  void OnDocumentStart(const YAML::Mark& mark) override
+  {
+    ++documents_;
+    last_ = mark;
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override
+  {
+  }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override
+  {
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override
+  {
+  }
+  void OnMapEnd() override {}
+
+  int documents_ = 0;
+  YAML::Mark last_;
+};
+
+bool starts_line(const std::string& text, int number, std::string_view word)
+{
+  std::istringstream lines(text);
+  std::string line;
+  for (int k = 0; k <= number; ++k) std::getline(lines, line);
+  return line.starts_with(word);
+}
+
 std::string remedy_of(const YAML::Exception& problem, const std::string& text)
 {
   if (problem.msg.find(YAML::ErrorMsg::UNKNOWN_ANCHOR) != std::string::npos)
@@ -96,13 +151,14 @@ Node parse_yaml(const std::string& text, const std::string& origin, bool single_
 {
   TreeBuilder builder(origin, single_place);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) {
-      throw InputError(builder.place(documents[1].Mark()).text() +
-                       ": a second document starts here (a file is one scene). Remove the '---'.");
-    }
-    if (documents.empty()) return {};
-    return builder.build(documents[0], {origin});
+    if (const std::optional<YAML::Mark> second = DocumentCounter::second_of(text))
+      throw InputError(
+          builder.place(*second).text() +
+          (starts_line(text, second->line, "---")
+               ? ": a second document starts here (a file is one scene). Remove the '---'."
+               : ": not YAML: what stands here belongs to nothing before it. Look at brackets, "
+                 "commas and indentation here and one line above."));
+    return builder.build(YAML::Load(text), {origin});
   } catch (const YAML::Exception& problem) {
     std::string words = problem.msg;  // they repeat a letter of the text, whatever it is
     std::ranges::replace_if(

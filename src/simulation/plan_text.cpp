@@ -1,7 +1,10 @@
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/kept_state.hpp>
 #include <mpm/simulation/method.hpp>
-#include <mpm/simulation/preparation.hpp>
+#include <mpm/simulation/snapshots.hpp>
+#include <mpm/simulation/step_measurement.hpp>
+
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +17,8 @@ namespace {
 template <int Dim>
 constexpr double cost_of_cells = Dim == 2 ? 45 : 350;
 
-/// Of the cost in the plane, by the shipped block scenes: a stencil has support times the nodes.
+/// ns a particle, where steps cannot be measured. Of the cost in the plane, by the shipped block
+/// scenes: a stencil has support times the nodes.
 template <int Dim>
 double step_cost(const scene::Numerics& numerics)
 {
@@ -24,12 +28,14 @@ double step_cost(const scene::Numerics& numerics)
 
 std::string memory(double bytes)
 {
+  if (bytes < 1e6) return fmt::format("{:.0f} kB", 1e-3 * bytes);
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
                      : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
 std::string duration(double seconds)
 {
+  if (seconds < 10) return fmt::format("{:.2g} s", seconds);
   if (seconds < 120) return fmt::format("{:.0f} s", seconds);
   if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
   return fmt::format("{:.1f} h", seconds / 3600);
@@ -42,6 +48,52 @@ std::string product(const Values& values, int count, const char* format = "{}")
   for (int d = 0; d < count; ++d)
     text += (d ? " x " : "") + fmt::format(fmt::runtime(format), values[d]);
   return text;
+}
+
+/// Lines of the plan, and so are those below.
+template <int Dim>
+std::vector<std::string> run_time_text(const Preparation<Dim>& preparation,
+                                       const StepMeasurement& measured)
+{
+  const Plan& plan = preparation.plan;
+  const int ranks = ranks_of(preparation.comm);
+  const std::string on = fmt::format("on {} rank{}", ranks, ranks == 1 ? "" : "s");
+  if (measured.steps == 0) {
+    const double seconds =
+        1e-9 * step_cost<Dim>(preparation.scene.numerics) * plan.particles() * plan.steps / ranks;
+    return {fmt::format("about {} {} (order of magnitude)", duration(seconds), on),
+            "not measured: " + measured.why_none};
+  }
+  std::vector<std::string> lines{fmt::format(
+      "{} {}: {:.3g} ms a step ({} step{} measured)", duration(measured.seconds * plan.steps), on,
+      1e3 * measured.seconds, measured.steps, measured.steps == 1 ? "" : "s")};
+  if (plan.contact_cells > 0)
+    lines.push_back("where walls have met, a step takes up to three times as long");
+  return lines;
+}
+
+template <int Dim>
+std::vector<std::string> files_text(const Preparation<Dim>& preparation,
+                                    const StepMeasurement& measured)
+{
+  const scene::Output& output = preparation.scene.output;
+  std::vector<std::string> lines{fmt::format("history of {} lines", output.history_lines)};
+  if (measured.checkpoint_bytes == 0) return lines;
+  const std::vector<double> moments = snapshot_moments(preparation);
+  const auto count = std::ranges::count_if(
+      moments, [&](double moment) { return moment <= preparation.plan.end_time * (1 + 1e-9); });
+  if (count > 0)
+    lines.push_back(fmt::format("{} snapshot{}, {} each{}, {} in all", count, count == 1 ? "" : "s",
+                                memory(measured.snapshot_bytes),
+                                output.compress ? " before compression" : "",
+                                memory(double(count) * measured.snapshot_bytes)));
+  if (output.checkpoints)
+    lines.push_back(fmt::format("checkpoints, {} each, the last {} kept",
+                                memory(measured.checkpoint_bytes), output.checkpoints->keep));
+  else
+    lines.push_back(fmt::format("a checkpoint where a signal ends the run, {}",
+                                memory(measured.checkpoint_bytes)));
+  return lines;
 }
 
 /// Shape of the partition and its balance at the start.
@@ -73,7 +125,7 @@ std::string passes_text(const std::vector<PassOutline>& passes)
 }  // namespace
 
 template <int Dim>
-std::string plan_text(const Preparation<Dim>& preparation)
+std::string plan_text(const Preparation<Dim>& preparation, const StepMeasurement* measured)
 {
   const scene::Scene& scene = preparation.scene;
   const micrograph::Specimen<Dim>& specimen = preparation.specimen;
@@ -83,6 +135,9 @@ std::string plan_text(const Preparation<Dim>& preparation)
   std::string text;
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<18} {}\n", what, value);
+  };
+  const auto lines = [&](const char* what, const std::vector<std::string>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k) line(k == 0 ? what : "", values[k]);
   };
   const auto& densities = specimen.densities();
   text += fmt::format("{}\n", scene.title.empty() ? scene.name : scene.title);
@@ -105,11 +160,10 @@ std::string plan_text(const Preparation<Dim>& preparation)
     line("material", fmt::format("{}: wave speed {:.0f} m/s, {:.0f} kg/m3", body.body,
                                  body.wave_speed, body.density));
   for (const std::string& load : plan.loads) line("load", load);
-  const char* what = "left out";
-  for (const Plan::LeftOut& absent : plan.left_out) {
-    line(what, fmt::format("{}: {}", absent.what, absent.why));
-    what = "";
-  }
+  std::vector<std::string> absences;
+  for (const Plan::LeftOut& absent : plan.left_out)
+    absences.push_back(fmt::format("{}: {}", absent.what, absent.why));
+  lines("left out", absences);
   line("time step", fmt::format("{:.4g} s (CFL {:.3g})", plan.time_step, layout.cfl));
   // Compression makes waves faster and steps shorter on the way.
   line("steps", fmt::format("{}{:.0f}, to t = {:.4g} s{}", scene.steps ? "" : "at least ",
@@ -137,15 +191,15 @@ std::string plan_text(const Preparation<Dim>& preparation)
   line("", scene.numerics.recovery == scene::Recovery::retry
                ? "another attempt and a snapshot of failure"
                : "a snapshot of failure");
-  line("run time", fmt::format("about {} on {} rank{} (order of magnitude)",
-                               duration(1e-9 * step_cost<Dim>(scene.numerics) * plan.particles() *
-                                        plan.steps / ranks),
-                               ranks, ranks == 1 ? "" : "s"));
+  if (measured) {
+    lines("run time", run_time_text(preparation, *measured));
+    lines("files", files_text(preparation, *measured));
+  }
   for (const std::string& warning : preparation.warnings) line("warning", warning);
   return text;
 }
 
-template std::string plan_text(const Preparation<2>&);
-template std::string plan_text(const Preparation<3>&);
+template std::string plan_text(const Preparation<2>&, const StepMeasurement*);
+template std::string plan_text(const Preparation<3>&, const StepMeasurement*);
 
 }  // namespace mpm

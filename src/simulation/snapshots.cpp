@@ -137,9 +137,10 @@ ParticleField make_field(Field field, const Formulation<Dim>& formulation)
   throw InputError("unknown output field");
 }
 
-/// Moments of snapshots, ascending, s.
+}  // namespace
+
 template <int Dim>
-std::vector<double> moments_of(const Preparation<Dim>& preparation)
+std::vector<double> snapshot_moments(const Preparation<Dim>& preparation)
 {
   const scene::Scene& scene = preparation.scene;
   std::vector<double> times = scene.output.snapshot_times;
@@ -151,8 +152,6 @@ std::vector<double> moments_of(const Preparation<Dim>& preparation)
   std::ranges::sort(times);
   return times;
 }
-
-}  // namespace
 
 template <int Dim>
 output::Snapshot snapshot_of(const Preparation<Dim>& preparation, Formulation<Dim>& formulation,
@@ -174,7 +173,7 @@ Snapshots<Dim>::Snapshots(const Preparation<Dim>& preparation, const std::filesy
     : preparation_(preparation),
       series_(preparation.comm, folder, preparation.scene.name,
               {.compress = preparation.scene.output.compress}),
-      moments_(moments_of(preparation))
+      moments_(snapshot_moments(preparation))
 {
 }
 
@@ -221,6 +220,8 @@ void Snapshots<Dim>::archive(Archive& archive)
   pass_moments();
 }
 
+template std::vector<double> snapshot_moments(const Preparation<2>&);
+template std::vector<double> snapshot_moments(const Preparation<3>&);
 template output::Snapshot snapshot_of(const Preparation<2>&, Formulation<2>&, double);
 template output::Snapshot snapshot_of(const Preparation<3>&, Formulation<3>&, double);
 

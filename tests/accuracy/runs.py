@@ -41,7 +41,7 @@ def _timed(command, log):
 def start_up(mpm_par, scene):
     """Processor seconds that a run spends before its first step; the least of three."""
     with tempfile.TemporaryDirectory() as place:
-        return min(_timed([str(mpm_par), "--check", str(scene)], Path(place) / "log.txt")[1]
+        return min(_timed([str(mpm_par), "--check", "--quiet", str(scene)], Path(place) / "log.txt")[1]
                    for _ in range(3))
 
 

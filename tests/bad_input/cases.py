@@ -187,6 +187,7 @@ def all_cases():
                        ("alias of itself", "a: &a [*a]\n" + GOOD), ("merge of nothing", "<<: *none\n" + GOOD),
                        ("a tag", GOOD.replace("10 m/s", "!!binary abc=")),
                        ("two documents", GOOD + "---\n" + GOOD), ("a directive", "%YAML 9.9\n---\n" + GOOD),
+                       ("a stray comma", ", " + GOOD), ("a comma below a comment", "# a scene\n, x\n" + GOOD),
                        ("a map as key", "{a: b}: c\n" + GOOD), ("deep brackets", "a: " + "[" * 20000),
                        ("deep maps", "{a: " * 5000 + "}" * 5000), ("deep indents",
                         "".join(" " * k + "a:\n" for k in range(3000))),

@@ -24,5 +24,7 @@ struct Places {
 
 /// Collective.
 Places places_of(MPI_Comm comm);
+/// This one with them. Collective.
+int ranks_on_this_node(MPI_Comm comm);
 
 }  // namespace mpm

@@ -14,7 +14,8 @@ namespace mpm::scene {
 struct CommandLine {
   std::filesystem::path scene;
   std::optional<std::filesystem::path> output;      ///< --output
-  bool check = false;                               ///< --check: read, print the plan, run nothing
+  bool check = false;                               ///< --check: print the plan, leave no results
+  std::optional<std::filesystem::path> preview;     ///< --preview: picture of the specimen
   std::vector<int> ranks;                           ///< --ranks: numbers of ranks to study
   std::vector<std::string> overrides;               ///< --set
   bool restart = false;                             ///< --restart: from the newest checkpoint

@@ -27,9 +27,12 @@ struct Preparation {
   scene::Scene effective_scene() const;
 };
 
-/// What will run, what is left out, and what it will take: the text of --check.
+struct StepMeasurement;
+
+/// What will run and what is left out; with a measurement, what it will take, too: the text of
+/// --check.
 template <int Dim>
-std::string plan_text(const Preparation<Dim>& preparation);
+std::string plan_text(const Preparation<Dim>& preparation, const StepMeasurement* measured);
 
 /// How the scene would be shared out among each of these numbers of ranks: the text of
 /// --check --ranks. Looks at all particles on the rank that asks.

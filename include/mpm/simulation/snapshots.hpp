@@ -11,6 +11,10 @@ template <int Dim>
 output::Snapshot snapshot_of(const Preparation<Dim>& preparation, Formulation<Dim>& formulation,
                              double strain);
 
+/// Ascending, s; those after the end of the run are not taken.
+template <int Dim>
+std::vector<double> snapshot_moments(const Preparation<Dim>& preparation);
+
 inline bool asks_for_snapshots(const scene::Scene& scene)
 {
   return !scene.output.snapshot_strains.empty() || !scene.output.snapshot_times.empty();

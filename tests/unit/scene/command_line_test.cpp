@@ -59,7 +59,16 @@ TEST(CommandLineOptions, AReportIsOfARun)
 {
   EXPECT_TRUE(parsed({"a.yaml", "--report"}).report);
   EXPECT_FALSE(parsed({"a.yaml"}).report);
-  EXPECT_THAT(refusal({"--report", "--check", "a.yaml"}), HasSubstr("--check runs nothing"));
+  EXPECT_THAT(refusal({"--report", "--check", "a.yaml"}), HasSubstr("--check leaves none"));
+}
+
+TEST(CommandLineOptions, APreviewIsAPngAndBelongsToCheck)
+{
+  EXPECT_EQ(parsed({"--check", "--preview", "a.png", "a.yaml"}).preview, "a.png");
+  EXPECT_EQ(parsed({"a.yaml", "--preview=b.png", "--check"}).preview, "b.png");
+  EXPECT_FALSE(parsed({"--check", "a.yaml"}).preview);
+  EXPECT_THAT(refusal({"--preview", "a.png", "a.yaml"}), HasSubstr("belongs to --check"));
+  EXPECT_THAT(refusal({"--check", "--preview", "a.yaml", "b.yaml"}), HasSubstr("ends with .png"));
 }
 
 TEST(CommandLineOptions, RanksToStudyAreAListAndBelongToCheck)
