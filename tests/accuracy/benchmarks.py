@@ -13,7 +13,6 @@ from pathlib import Path
 
 import runs
 import ladders
-import measures
 
 TABLE = json.loads(Path(__file__).with_name("table.json").read_text())
 METHODS = TABLE["methods"] + TABLE["variants"]

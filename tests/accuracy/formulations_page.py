@@ -4,14 +4,14 @@
 """
 import functools
 import json
-import sys
 from pathlib import Path
 
 import numpy
 
 import runs
 import results
-from words import filled_in, finished, percent, seconds, table
+from words import filled_in, finished, percent, seconds
+from written_page import table, write_or_check
 
 PAGE = runs.PROJECT / "docs" / "formulations.md"
 FOLDER = runs.PROJECT / "docs" / "formulations"
@@ -213,12 +213,8 @@ def draw():
 
 
 def main():
-    page = written()
-    if "--check" not in sys.argv[1:]:
-        PAGE.write_text(page)
+    if write_or_check(PAGE, written()):
         draw()
-    elif PAGE.read_text() != page:
-        sys.exit(f"{PAGE} is not what {Path(__file__).name} writes: run it")
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
     page.py [--check]    --check: only says whether the page is the one that would be written
 """
 import re
-import sys
 from pathlib import Path
 
 import analysis
@@ -12,6 +11,7 @@ import page_contact
 import page_loblolly
 import runs
 from words import filled_in, finished, percent, seconds
+from written_page import write_or_check
 
 PAGE = runs.PROJECT / "docs" / "accuracy.md"
 TEXT = Path(__file__).with_name("page.md")
@@ -65,11 +65,7 @@ def written():
 
 
 def main():
-    page = written()
-    if "--check" not in sys.argv[1:]:
-        PAGE.write_text(page)
-    elif PAGE.read_text() != page:
-        sys.exit(f"{PAGE} is not what {Path(__file__).name} writes: run it")
+    write_or_check(PAGE, written())
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """The part of docs/accuracy.md on scenes with a known answer."""
 import analysis
-from words import percent, seconds, table
+from words import percent, seconds
+from written_page import table
 
 ABOUT = {
     "vortex": "displacement, root of the mean square over the size of the exact one",

@@ -1,6 +1,7 @@
 """The part of docs/accuracy.md on early contact."""
 import analysis
-from words import percent, points, seconds, table
+from words import percent, points, seconds
+from written_page import table
 
 FLIP = ("linear flip", "gimp flip", "quadratic flip", "cubic flip")
 

@@ -1,7 +1,8 @@
 """The parts of docs/accuracy.md on the loblolly model."""
 import analysis
 import results
-from words import giga, mega, percent, points, seconds, table
+from words import giga, mega, percent, points, seconds
+from written_page import table
 
 GEOMETRIES = ("picture", "fixed")
 FARTHEST = 0.5  # an extrapolation that moves a figure by more is none

@@ -14,7 +14,9 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 RESULTS = PROJECT / "docs" / "accuracy"
 sys.path += [str(PROJECT / "src" / "study"), str(PROJECT / "src" / "python"),
-             str(PROJECT / "tests" / "convergence")]
+             str(PROJECT / "tests" / "convergence"), str(PROJECT / "tests" / "support")]
+import scene_run  # noqa: E402
+
 UPDATED = "numerics.formulation=updated_lagrangian"
 ROUNDS, SHORT = 3, 1.0  # runs of less than SHORT seconds are timed ROUNDS times
 
@@ -74,9 +76,7 @@ def run(mpm_par, scene, settings, folder):
     cost = kept_cost(mpm_par, scene, settings, folder)
     if cost is not None:
         return place, cost
-    command = [str(mpm_par), str(scene), "--output", str(place), "--overwrite"]
-    for setting in settings:
-        command += ["--set", setting]
+    command = scene_run.command(mpm_par, scene, place, settings, "--overwrite")
     place.mkdir(parents=True, exist_ok=True)
     best = None
     for _ in range(ROUNDS):

@@ -1,4 +1,4 @@
-"""Numbers, tables and lines as the page writes them."""
+"""Numbers and lines as the page writes them."""
 import textwrap
 
 
@@ -30,11 +30,6 @@ def mega(value):
 
 def giga(value):
     return "-" if value is None else f"{value / 1e9:.2f}"
-
-
-def table(heads, lines):
-    return "\n".join(["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-                     + ["| " + " | ".join(line) + " |" for line in lines]) + "\n"
 
 
 def filled_in(text, values):

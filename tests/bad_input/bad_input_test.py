@@ -6,10 +6,14 @@ import pathlib
 import re
 import resource
 import subprocess
+import sys
 import tempfile
 import unittest
 
 from cases import all_cases
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import scene_run  # noqa: E402
 
 SECONDS = 10        # of processor time: most take a tenth of one
 MEMORY = 1_000_000  # KiB at most
@@ -28,11 +32,11 @@ def defects(case):
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
             (folder / path).write_bytes(contents)
         before = sorted(folder.rglob("*"))
-        settings = [word for setting in case.settings for word in ("--set", setting)]
         with open(folder.parent / (folder.name + ".errors"), "w+b") as errors:
             os.unlink(errors.name)
             run = subprocess.Popen(
-                [os.environ["MPM_PAR"], case.file, "--output", "results/new", *settings, *case.arguments],
+                [*scene_run.command(os.environ["MPM_PAR"], case.file, "results/new", case.settings),
+                 *case.arguments],
                 cwd=folder, stdout=subprocess.DEVNULL, stderr=errors,
                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS)))
             _, status, used = os.wait4(run.pid, 0)

@@ -11,11 +11,10 @@ import sys
 import time
 import unittest
 
-ROOT = pathlib.Path(__file__).parents[2]
+from slow_ring import RING, ROOT, expect_same_as_in_one_go
+from same_results import files_of
+
 SCRATCH = pathlib.Path(os.environ["MPM_SCRATCH"])
-RING = (ROOT / "inputs" / "benchmarks" / "crushed_ring.yaml").read_text() \
-    .replace("speed: 10 m/s", "speed: 0.1 m/s") \
-    .replace("history_lines: 400", "history_lines: 40000")
 # -v: the variables that it names, as they are.
 QSUB = f"""#!{sys.executable}
 import json, os, sys
@@ -82,11 +81,7 @@ class PbsTest(unittest.TestCase):
         said = self.run_it(script, 13, status=0, **{**asked["environment"], "TIME_LIMIT": "1 h"})
         self.assertIn(f"goes on from results/ring-12/checkpoints/{checkpoint.name}", said)
         self.assertIsNone(self.asked())
-        whole = self.folder / "whole"
-        launch = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], "2"]
-        subprocess.run([*launch, os.environ["MPM_PAR"], "--quiet", self.scene, "-o", whole],
-                       check=True, capture_output=True)
-        self.assertEqual((whole / "history.csv").read_text(), (results / "history.csv").read_text())
+        expect_same_as_in_one_go(self, self.scene, results, 2, of=files_of)
         self.assertIn("The ring, crushed", (results / "scene.yaml").read_text())
 
     def test_out_of_time_a_job_submits_itself_and_goes_on(self):

@@ -11,18 +11,13 @@ import time
 import unittest
 
 import private_slurm
+from slow_ring import RING, ROOT, expect_same_as_in_one_go
 
-ROOT = pathlib.Path(__file__).parents[2]
 SCRATCH = pathlib.Path(os.environ["MPM_SCRATCH"])
 SECONDS = 540  # CTest ends the test later, and then nobody would take the daemons down.
-SCENE = (ROOT / "inputs" / "benchmarks" / "crushed_ring.yaml").read_text() \
-    .replace("speed: 10 m/s", "speed: 0.1 m/s") \
-    .replace("history_lines: 400", "history_lines: 40000") + \
-    "numerics: {formulation: total_lagrangian}\n"
+SCENE = RING + "numerics: {formulation: total_lagrangian}\n"
 # In the log: the plan, progress, and what mpirun says of every status but 0.
 OF_NO_USE = r" *\d+ %|  |-----|Primary job|a non-zero|mpirun detected|the job to be|\Z"
-# In the summary: by the clock, or of the folder.
-NOT_REPEATED = r"second|ns_per|bytes|messages|work_imbalance|name|results"
 STUDY = """scene: scene.yaml
 set: {steps: 40}
 vary: {loading.speed: [10 m/s, 20 m/s, 30 m/s]}
@@ -84,19 +79,8 @@ class SlurmTest(unittest.TestCase):
         return steps
 
     def expect_same_as_in_one_go(self, job, ranks):
-        whole = self.folder / "whole"
-        launcher = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks)]
-        run = subprocess.run([*launcher, os.environ["MPM_PAR"], "--quiet", self.scene.name,
-                              "-o", whole], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        for name in "history.csv", "summary.json":
-            one, two = ((folder / name).read_text() for folder in (whole, self.results(job)))
-            if name == "summary.json":
-                one, two = ([line for line in text.splitlines()
-                             if not re.search(NOT_REPEATED, line)] for text in (one, two))
-            self.assertGreater(len(one), 12)
-            self.assertEqual(one, two, name)
-        log(f"history and summary of job {job} are those of a run in one go, to the last digit")
+        expect_same_as_in_one_go(self, self.scene, self.results(job), ranks)
+        log(f"results of job {job} are those of a run in one go, to the last digit")
 
     def expect_end(self, job, state, status, restarts):
         [found] = self.slurm.wait_for_end(job, 120)

@@ -15,12 +15,14 @@ import itertools
 import json
 import math
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 import measures
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
+import scene_run  # noqa: E402
 
 TABLE = Path(__file__).with_name("table.json")
 SCENES = Path(__file__).parents[2] / "inputs" / "benchmarks"
@@ -55,12 +57,7 @@ def results_of(mpm_par, case, method, level, folder):
     settings += numerics_of(method)
     results = folder / re.sub(r"[^\w.,=-]", "_", " ".join([case["scene"], *settings]))
     if not results.exists():
-        command = [str(mpm_par), str(SCENES / case["scene"]), "--output", str(results)]
-        for setting in settings:
-            command += ["--set", setting]
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode not in (0, 3):
-            raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+        scene_run.ended_or_stopped(mpm_par, SCENES / case["scene"], results, settings)
     return results if (results / "summary.json").exists() else None
 
 

@@ -3,11 +3,10 @@
     page.py [--check]    --check: only says whether the page is the one that would be written
 """
 import json
-import sys
-from pathlib import Path
 
 import measures
 from ladders import CELLS, SCENES, TABLE, orders
+from written_page import table, write_or_check
 
 PAGE = SCENES.parents[1] / "docs" / "verification.md"
 INTRODUCTION = """# Verification
@@ -82,28 +81,24 @@ def section(case, before):
         title, comment = words_of(case["scene"])
         text += [f"## {title}", "", comment, ""]
     text += [f"`inputs/benchmarks/{case['scene']}`, `--set {case['settings'][0]}`: "
-             f"{looked_at(case)}", "",
-             "| shape function, scheme, or formulation | " + " | ".join(f"n = {n}" for n in case["levels"]) +
-             " | orders |", "|---|" + "---|" * (len(case["levels"]) + 1)]
+             f"{looked_at(case)}", ""]
+    heads = ["shape function, scheme, or formulation", *(f"n = {n}" for n in case["levels"]), "orders"]
+    lines = []
     for method, errors in case["errors"].items():
         orderless = None in errors or max(map(abs, errors)) < case.get("floor", 0)
         rates = [] if orderless else orders(case["levels"], errors)
-        text.append(f"| {method if method in CELLS else method.replace(' ', ', ')} | " +
-                    " | ".join(cell(case, error) for error in errors) + " | " +
-                    ", ".join(f"{rate:.2f}" for rate in rates) + " |")
-    if "remark" in case:
-        text += ["", case["remark"]]
-    return "\n".join(text) + "\n"
+        lines.append([method if method in CELLS else method.replace(" ", ", "),
+                      *(cell(case, error) for error in errors),
+                      ", ".join(f"{rate:.2f}" for rate in rates)])
+    remark = f"\n{case['remark']}\n" if "remark" in case else ""
+    return "\n".join([*text, table(heads, lines)]) + remark
 
 
 def main():
-    table = json.loads(TABLE.read_text())
+    cases = json.loads(TABLE.read_text())
     page = INTRODUCTION + "".join("\n" + section(case, before)
-                                  for before, case in zip([None, *table], table))
-    if "--check" not in sys.argv[1:]:
-        PAGE.write_text(page)
-    elif PAGE.read_text() != page:
-        sys.exit(f"{PAGE} is not what {Path(__file__).name} writes: run it")
+                                  for before, case in zip([None, *cases], cases))
+    write_or_check(PAGE, page)
 
 
 if __name__ == "__main__":

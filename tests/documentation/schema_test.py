@@ -6,7 +6,7 @@ import unittest
 import jsonschema
 import pages
 import yaml
-from program import ProgramTest, mpm_par
+from program import ProgramTest, mpm_par, set_options
 
 FOLDERS = (pages.PROJECT / "inputs", *sorted((pages.PROJECT / "tests").glob("*/scenes")))
 SCENES = [path for folder in FOLDERS for path in sorted(folder.rglob("*.yaml"))
@@ -115,7 +115,7 @@ class Schema(ProgramTest):
             with self.subTest(path):
                 folder = self.folder / path
                 run = mpm_par(pages.PROJECT / "inputs" / f"{path}.yaml", "--output", folder,
-                              "--set", f"steps={steps}", "--set", "output.snapshots=0")
+                              *set_options([f"steps={steps}", "output.snapshots=0"]))
                 self.assertEqual(run.returncode, 0, run.stderr)
                 self.assertEqual(self.errors(yaml.safe_load((folder / "scene.yaml").read_text())),
                                  [])

@@ -3,7 +3,6 @@ import pathlib
 import re
 import shlex
 import subprocess
-import types
 import unittest
 
 ROOT = pathlib.Path(__file__).parents[2]

@@ -3,7 +3,7 @@
 import math
 
 from measuring import PROJECT, figure
-from scenes import BENCHMARKS, each, one_run, runs
+from scenes import BENCHMARKS, one_run, runs
 
 PARTICLES = (1e3, 1e4, 1e5, 1e6, 8e6)
 EMPTY = (0, 1, 3, 7, 15)  # empty cells per full one

@@ -1,11 +1,15 @@
 """Figures of the whole program on shipped scenes."""
 import json
 import os
+import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from measuring import PROJECT, avx2_build, figure, instructions, run
+
+sys.path.append(str(PROJECT / "tests" / "support"))
+import scene_run  # noqa: E402
 
 BENCHMARKS = PROJECT / "inputs" / "benchmarks"
 WOOD = PROJECT / "inputs" / "wood"
@@ -14,10 +18,7 @@ SHAPES = ("linear", "gimp", "quadratic")
 
 
 def command(build, scene, folder, settings=()):
-    words = [build.mpm_par, scene, "--output", folder, "--overwrite"]
-    for setting in settings:
-        words += ["--set", setting]
-    return words
+    return scene_run.command(build.mpm_par, scene, folder, settings, "--overwrite")
 
 
 def one_run(build, scene, settings=(), ranks=1, oversubscribed=False, core=None):

@@ -11,20 +11,11 @@ import needed
 
 needed.modules("numpy", "h5py", "yaml", "matplotlib")
 
-from program import ProgramTest, mpm_par, scene  # noqa: E402
+from program import ProgramTest, mpm_par, scene, set_options  # noqa: E402
 
 ROOT = pathlib.Path(__file__).parents[2]
 BUILD = pathlib.Path(os.environ["MPM_BUILD"])
-BLOCK = """\
-material: {law: isotropic, youngs_modulus: 50 GPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
-specimen:
-  size: [1 mm, 0.25 mm]
-  shapes:
-    - box: {lower: [0 mm, 0 mm], upper: [1 mm, 0.25 mm]}
-grid: {cells: [16, 4]}
-loading: {piston: right, speed: 10 m/s, strain: 4 %}
-output: {history_lines: 100, snapshots: 0}
-"""
+BLOCK = ROOT / "tests" / "support" / "block.yaml"
 STUDY = """\
 title: Cells of a block
 scene: block.yaml
@@ -36,10 +27,10 @@ error: {name: modulus, of: compression.modulus, against: finest}
 class Examples(ProgramTest):
     def test_all_run(self):
         results = self.folder / "results"
-        run = mpm_par(scene("honeycomb"), "--output", results / "my_wood", "--set",
-                      "output.snapshots=4", "--set", "output.fields=[plastic_work, id]", ranks=2)
+        run = mpm_par(scene("honeycomb"), "--output", results / "my_wood",
+                      *set_options(["output.snapshots=4", "output.fields=[plastic_work, id]"]), ranks=2)
         self.assertEqual(run.returncode, 0, run.stderr)
-        (self.folder / "block.yaml").write_text(BLOCK)
+        shutil.copy(BLOCK, self.folder)
         (self.folder / "study.yaml").write_text(STUDY)
         for words in (["study.yaml", "-o", "results/my_study"],
                       ["--error-bar", "block.yaml", "-o", "results/my_bar"]):

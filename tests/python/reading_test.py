@@ -12,7 +12,7 @@ import h5py  # noqa: E402
 import numpy  # noqa: E402
 
 import mpm_par  # noqa: E402
-from program import ProgramTest  # noqa: E402
+from program import ProgramTest, set_options  # noqa: E402
 
 FORMULATIONS = {"updated_lagrangian": "18 %", "total_lagrangian": "9 %"}
 TUBES = pathlib.Path(__file__).parents[2] / "inputs" / "tutorial" / "tubes.yaml"
@@ -98,8 +98,8 @@ class Reading(ProgramTest):
     def in_space(self):
         from program import mpm_par as start
         folder = self.folder / "tubes"
-        run = start(TUBES, "--output", folder, "--overwrite", "--set", "loading.strain=10 %",
-                    "--set", "output.snapshots=3", ranks=2)
+        run = start(TUBES, "--output", folder, "--overwrite",
+                    *set_options(["loading.strain=10 %", "output.snapshots=3"]), ranks=2)
         self.assertEqual(run.returncode, 0, run.stderr)
         opened = mpm_par.open_run(folder)
         self.assertEqual((opened.axis, opened.is_in_space, opened.thickness), (1, True, 1))

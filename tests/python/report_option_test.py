@@ -6,9 +6,9 @@ import needed
 
 needed.modules("numpy", "h5py", "yaml", "matplotlib", "PIL")
 
-from program import ProgramTest, mpm_par, scene  # noqa: E402
+from program import ProgramTest, mpm_par, scene, set_options  # noqa: E402
 
-QUICK = ["--set", "steps=60", "--set", "output.history_lines=5", "--set", "output.snapshots=0"]
+QUICK = set_options(["steps=60", "output.history_lines=5", "output.snapshots=0"])
 
 
 class ReportOption(ProgramTest):

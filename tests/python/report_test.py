@@ -14,7 +14,7 @@ needed.modules("numpy", "h5py", "yaml", "matplotlib", "PIL")
 
 from PIL import Image  # noqa: E402
 
-from program import ProgramTest, mpm_par, scene, summary  # noqa: E402
+from program import ProgramTest, mpm_par, scene, set_options, summary  # noqa: E402
 
 REPORT = pathlib.Path(os.environ["MPM_BUILD"]) / "mpm_report"
 TUBES = pathlib.Path(__file__).parents[2] / "inputs" / "tutorial" / "tubes.yaml"
@@ -139,8 +139,8 @@ class Report(ProgramTest):
 
     def test_in_space_shows_a_section(self):
         folder = self.folder / "tubes"
-        run = mpm_par(TUBES, "--output", folder, "--set", "loading.strain=8 %",
-                      "--set", "output.snapshots=3", ranks=2)
+        run = mpm_par(TUBES, "--output", folder,
+                      *set_options(["loading.strain=8 %", "output.snapshots=3"]), ranks=2)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("shown is a section about one particle thick at z = 5 µm",
                       self.page_of(folder, *SPARSE).text)

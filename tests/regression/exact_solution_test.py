@@ -3,7 +3,7 @@ import csv
 import math
 import unittest
 
-from program import SCENES, ProgramTest, mpm_par, summary
+from program import SCENES, ProgramTest, mpm_par, set_options, summary
 
 BENCHMARKS = SCENES.parents[2] / "inputs" / "benchmarks"
 # Particles that fly through periodic sides and round again, slowed down so that the step, which obeys
@@ -24,7 +24,8 @@ output: {history_lines: 40, snapshots: 0}
 
 class ExactSolution(ProgramTest):
     def run_scene(self, scene, name, ranks=1, settings=()):
-        done = mpm_par(scene, "--output", self.folder / name, *settings, ranks=ranks)
+        done = mpm_par(scene, "--output", self.folder / name, *set_options(settings),
+                       ranks=ranks)
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
         return summary(self.folder / name)["exact_solution"], done.stdout
 
@@ -39,7 +40,7 @@ class ExactSolution(ProgramTest):
             self.assertIn("displacement error", said)
 
     def test_bricks_follow_flight_and_vibration_in_space(self):
-        bricks = ("--set", "numerics.formulation=total_lagrangian")
+        bricks = ["numerics.formulation=total_lagrangian"]
         in_space = (FLYING.replace("0.25 m]", "0.25 m, 0.25 m]").replace("[0 m, 0 m]", "[0 m, 0 m, 0 m]")
                     .replace("t/2, 0]", "t/2, 0, 0]").replace("t^2/4, 0]", "t^2/4, 0, 0]")
                     .replace("[-0.5, 0]", "[-0.5, 0, 0]").replace("[8, 2]", "[8, 2, 2]"))
@@ -55,8 +56,8 @@ class ExactSolution(ProgramTest):
 
     def test_is_the_same_on_every_number_of_ranks(self):
         scene = BENCHMARKS / "vortex.yaml"
-        one, _ = self.run_scene(scene, "one", 1, ("--set", "grid.cells=[24, 24]"))
-        three, _ = self.run_scene(scene, "three", 3, ("--set", "grid.cells=[24, 24]"))
+        one, _ = self.run_scene(scene, "one", 1, ["grid.cells=[24, 24]"])
+        three, _ = self.run_scene(scene, "three", 3, ["grid.cells=[24, 24]"])
         for key, value in one.items():
             self.assertTrue(math.isclose(value, three[key], rel_tol=1e-6), f"{key}: {value}")
 

@@ -4,7 +4,7 @@ import re
 import unittest
 import xml.etree.ElementTree
 
-from program import History, ProgramTest, mpm_par, scene, summary
+from program import History, ProgramTest, mpm_par, scene, set_options, summary
 
 PROJECT = pathlib.Path(__file__).parents[2]
 PAST_THE_LIMIT = PROJECT / "inputs" / "stability" / "past_the_limit.yaml"
@@ -68,8 +68,7 @@ def snapshots_of(series):
 class Failure(ProgramTest):
     def run_past_the_limit(self, label, *settings, ranks=1):
         folder = self.folder / label
-        options = [word for setting in settings for word in ("--set", setting)]
-        return folder, mpm_par(PAST_THE_LIMIT, "--output", folder, *options, ranks=ranks)
+        return folder, mpm_par(PAST_THE_LIMIT, "--output", folder, *set_options(settings), ranks=ranks)
 
     def check_stopped(self, folder, run):
         self.assertEqual(run.returncode, 3, run.stderr + run.stdout)
@@ -137,8 +136,8 @@ class Failure(ProgramTest):
 
     def test_retries_end_after_a_stated_number(self):
         # No step is short enough for a disc that flies out of the grid.
-        run = mpm_par(scene("fast_disc"), "--output", self.folder / "results", "--set",
-                      "numerics.recovery=retry", "--set", "numerics.cfl=0.02", ranks=2)
+        run = mpm_par(scene("fast_disc"), "--output", self.folder / "results",
+                      *set_options(["numerics.recovery=retry", "numerics.cfl=0.02"]), ranks=2)
         self.assertEqual(run.returncode, 3, run.stderr + run.stdout)
         self.assertEqual(run.stdout.count("Went back to step"), 4, run.stdout)
         self.assertIn("This was attempt 5, with 0.0625 of the step.", run.stderr)

@@ -3,7 +3,7 @@ scene does not need is not there."""
 import unittest
 import unittest.mock
 
-from program import ProgramTest, mpm_par, scene, summary
+from program import ProgramTest, mpm_par, scene, set_options, summary
 
 FLIGHT = """
 material: {law: isotropic, youngs_modulus: 10 GPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
@@ -185,8 +185,8 @@ class Plan(ProgramTest):
         for count, written in ((0, 0), (2, 1)):  # the second one would come at the end
             folder = self.folder / str(count)
             with unittest.mock.patch.dict("os.environ", {"HDF5_DEBUG": "unheard"}):
-                run = mpm_par(scene("confined_block"), "--set", f"output.snapshots={count}",
-                              "--set", "steps=2", "--output", folder)
+                run = mpm_par(scene("confined_block"), "--output", folder,
+                              *set_options([f"output.snapshots={count}", "steps=2"]))
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertEqual("unheard" in run.stderr, written > 0, run.stderr)
             self.assertEqual(len(list(folder.rglob("*.h5"))), written)
@@ -199,8 +199,7 @@ class Plan(ProgramTest):
 
     def test_the_text_fits_eighty_columns(self):
         for _, name, settings, _, _ in SCENES:
-            options = [word for setting in settings for word in ("--set", setting)]
-            run = mpm_par("--check", scene(name), *options)
+            run = mpm_par("--check", scene(name), *set_options(settings))
             self.assertEqual(run.returncode, 0, run.stderr)
             for line in run.stdout.splitlines():
                 if not line.startswith("  warning"):

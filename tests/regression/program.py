@@ -5,7 +5,11 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import unittest
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from scene_run import set_options  # noqa: E402
 
 SCENES = pathlib.Path(__file__).parent / "scenes"
 
@@ -55,7 +59,7 @@ class ProgramTest(unittest.TestCase):
     def results(self, scene_name, *settings, ranks=1, label="results"):
         """Runs a scene that must end well; returns its folder of results, without those of an earlier run."""
         folder = self.folder / label
-        options = [word for setting in settings for word in ("--set", setting)]
-        run = mpm_par(scene(scene_name), "--output", folder, "--overwrite", *options, ranks=ranks)
+        run = mpm_par(scene(scene_name), "--output", folder, "--overwrite", *set_options(settings),
+                      ranks=ranks)
         self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
         return folder

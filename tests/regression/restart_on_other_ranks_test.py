@@ -2,8 +2,8 @@
 been these all along: with the same history, to the rounding of sums in another order."""
 import unittest
 
-from program import History, ProgramTest, mpm_par, scene, summary
-from restart_test import BAR, CELLS, CROP, INPUTS, RING, STRIP, words_of
+from program import History, scene, summary
+from restart_test import BAR, CELLS, CROP, INPUTS, RING, STRIP, RunsToRestart
 
 FROM_AND_TO = (2, 1), (1, 3), (3, 2)
 ELASTIC = "material.yield_stress=500 GPa"
@@ -14,13 +14,7 @@ TWO_BLOCKS = (scene("two_blocks"), [])
 SPACE = (INPUTS / "benchmarks" / "vibrating_bar_space.yaml", ["output.history_lines=20"])
 
 
-class RestartOnOtherRanks(ProgramTest):
-    def run_it(self, of, folder, *words, settings=(), ranks=1, status=0):
-        file, fixed = of
-        run = mpm_par(file, "--output", folder, *words_of([*fixed, *settings]), *words, ranks=ranks)
-        self.assertEqual(run.returncode, status, run.stderr + run.stdout)
-        return run
-
+class RestartOnOtherRanks(RunsToRestart):
     def check_same(self, whole, folder, tolerance):
         expected, found = History(whole), History(folder)
         self.assertEqual(expected.names, found.names)

@@ -7,8 +7,8 @@ import subprocess
 import time
 import unittest
 
-from program import History, ProgramTest, mpm_par, summary
-from same_results import facts_of, files_of
+from program import History, ProgramTest, mpm_par, set_options, summary
+from same_results import expect_same, files_of
 
 INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
 SNAPSHOTS = "output.snapshots={strains: [0 %, 10 %, 20 %, 29 %]}"
@@ -29,17 +29,16 @@ WOOD = (INPUTS / "wood" / "ponderosa_tangential.yaml",
          "output.fields=[velocity, stress, id, rank]"])
 BAR = (INPUTS / "benchmarks" / "vibrating_bar.yaml", ["output.history_lines=50"])
 
-def words_of(settings):
-    return [word for setting in settings for word in ("--set", setting)]
 
-
-class Restart(ProgramTest):
+class RunsToRestart(ProgramTest):
     def run_it(self, of, folder, *words, settings=(), ranks=1, status=0):
         file, fixed = of
-        run = mpm_par(file, "--output", folder, *words_of([*fixed, *settings]), *words, ranks=ranks)
+        run = mpm_par(file, "--output", folder, *set_options([*fixed, *settings]), *words, ranks=ranks)
         self.assertEqual(run.returncode, status, run.stderr + run.stdout)
         return run
 
+
+class Restart(RunsToRestart):
     def whole(self, of, ranks=1, settings=()):
         folder = self.folder / f"whole_{ranks}"
         self.run_it(of, folder, settings=settings, ranks=ranks)
@@ -47,13 +46,6 @@ class Restart(ProgramTest):
 
     def checkpoints(self, folder):
         return sorted((folder / "checkpoints").glob("*.h5"))
-
-    def expect_same(self, whole, folder):
-        expected, found = files_of(whole), files_of(folder)
-        self.assertEqual(expected.keys(), found.keys())
-        for name in expected:
-            self.assertTrue(expected[name] == found[name], f"{name} is not the same")
-        self.assertEqual(facts_of(whole), facts_of(folder))
 
     def check_goes_on(self, of, steps, ranks=1, settings=()):
         """From a run that a limit of steps has ended, and from one that went on once already."""
@@ -65,7 +57,7 @@ class Restart(ProgramTest):
             run = self.run_it(of, folder, "--restart", settings=[*every, *([end] if end else [])],
                               ranks=ranks)
             self.assertIn("goes on from", run.stdout)
-        self.expect_same(whole, folder)
+        expect_same(self, whole, folder)
 
     def test_cells_in_contact(self):
         for ranks in 1, 2, 3:
@@ -91,7 +83,7 @@ class Restart(ProgramTest):
         command = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks)] if ranks > 1 else []
         file, fixed = of
         return subprocess.Popen([*command, os.environ["MPM_PAR"], file, "--output", folder,
-                                 *words_of([*fixed, *settings])],
+                                 *set_options([*fixed, *settings])],
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def wait_for_lines(self, folder, lines):
@@ -115,7 +107,7 @@ class Restart(ProgramTest):
             self.assertEqual(len(self.checkpoints(folder)), 1)
             self.assertFalse((folder / "summary.json").exists())
             self.run_it(RING, folder, "--restart", settings=[CELLS], ranks=ranks)
-            self.expect_same(whole[ranks], folder)
+            expect_same(self, whole[ranks], folder)
 
     def test_killed_at_any_moment(self):
         settings = [CELLS, "output.checkpoints={steps: 20, keep: 3}"]
@@ -124,7 +116,7 @@ class Restart(ProgramTest):
         for lines in 3, 9, 15, 21:
             run = self.start(RING, folder, [*settings], 1) if not restart else subprocess.Popen(
                 [os.environ["MPM_PAR"], RING[0], "--output", folder, *restart,
-                 *words_of([*RING[1], *settings])], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                 *set_options([*RING[1], *settings])], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             self.wait_for_lines(folder, lines)
             time.sleep(0.003 * lines)
             run.kill()
@@ -132,7 +124,7 @@ class Restart(ProgramTest):
             self.assertGreater(len(self.checkpoints(folder)), 0)
             restart = ["--restart"]
         self.run_it(RING, folder, "--restart", settings=settings)
-        self.expect_same(whole, folder)
+        expect_same(self, whole, folder)
         self.assertEqual(len(self.checkpoints(folder)), 3)
 
     def test_time_limit(self):
@@ -140,7 +132,7 @@ class Restart(ProgramTest):
         run = self.run_it(RING, folder, "--time-limit", "0.3 s", settings=settings, status=75)
         self.assertIn("the time limit was reached", run.stderr)
         self.run_it(RING, folder, "--restart", settings=settings)
-        self.expect_same(self.whole(RING, 1, settings), folder)
+        expect_same(self, self.whole(RING, 1, settings), folder)
         for limit in "soon", "-1 s", "3 m":
             run = self.run_it(RING, folder, "--restart", "--time-limit", limit, status=2)
             self.assertIn("--time-limit is " + limit, run.stderr)
@@ -172,7 +164,7 @@ class Restart(ProgramTest):
         for file in second, third:
             self.assertIn(str(file), run.stdout + run.stderr)
         self.assertIn(f"goes on from {first}", run.stdout)
-        self.expect_same(whole, folder)
+        expect_same(self, whole, folder)
 
     def test_says_why_it_cannot_go_on(self):
         folder = self.begun()

@@ -5,10 +5,10 @@ import pathlib
 import shutil
 import unittest
 
-from program import ProgramTest, mpm_par, scene
+from program import ProgramTest, mpm_par, set_options
 
-QUICK = ["--set", "output.history_lines=4", "--set", "steps=40"]
-WHOLE = ["--set", "output.history_lines=4"]
+WHOLE = ["output.history_lines=4"]
+QUICK = [*WHOLE, "steps=40"]
 OF_A_RUN = ["exact_solution.csv", "history.csv", "report.html", "scene.yaml", "specimen.png", "summary.json"]
 
 
@@ -24,8 +24,8 @@ class ResultsFolder(ProgramTest):
         self.bar = pathlib.Path(__file__).parents[2] / "inputs" / "benchmarks" / "vibrating_bar.yaml"
 
     def run_it(self, *words, ranks=1, file=None, output=None, settings=QUICK):
-        return mpm_par(file or self.bar, "--output", output or self.results_of_first, *settings, *words,
-                       ranks=ranks)
+        return mpm_par(file or self.bar, "--output", output or self.results_of_first,
+                       *set_options(settings), *words, ranks=ranks)
 
     def good(self, *words, **more):
         run = self.run_it(*words, **more)
@@ -61,8 +61,7 @@ class ResultsFolder(ProgramTest):
         self.assertEqual(all_of(self.results_of_first), before)
 
     def test_overwrite_takes_away_what_was_of_the_other_run_and_nothing_else(self):
-        self.good("--set", "output.snapshots=6", "--set", "output.checkpoints={steps: 20, keep: 9}",
-                  settings=WHOLE)
+        self.good(settings=[*WHOLE, "output.snapshots=6", "output.checkpoints={steps: 20, keep: 9}"])
         folder = self.results_of_first
         self.assertTrue((folder / "snapshots" / "000005.h5").exists())
         self.assertTrue((folder / "checkpoints").exists())
@@ -70,9 +69,9 @@ class ResultsFolder(ProgramTest):
         for name in mine:
             (folder / name).write_text("mine")
         (folder / "snapshots" / "000009.h5.part").write_text("half")
-        self.good("--overwrite", "--set", "output.snapshots=2", settings=WHOLE)
+        self.good("--overwrite", settings=[*WHOLE, "output.snapshots=2"])
         fresh = self.folder / "fresh"
-        self.good("--set", "output.snapshots=2", output=fresh, settings=WHOLE)
+        self.good(output=fresh, settings=[*WHOLE, "output.snapshots=2"])
         self.assertEqual(set(all_of(folder)), set(all_of(fresh)) | mine)
         self.assertEqual((folder / "history.csv").read_bytes(), (fresh / "history.csv").read_bytes())
 

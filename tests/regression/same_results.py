@@ -17,3 +17,20 @@ def facts_of(folder):
     """Of the summary."""
     return {key: value for key, value in summary(folder).items()
             if not any(word in key for word in NOT_REPEATED) and key not in ("name", "results")}
+
+
+def results_of(folder):
+    """All that is compared."""
+    return files_of(folder) | {"summary.json": facts_of(folder)}
+
+
+def difference(expected, found):
+    """The first file that is not the same in what results_of has found; None if there is none."""
+    return next((name for name in sorted({*expected, *found}) if expected.get(name) != found.get(name)),
+                None)
+
+
+def expect_same(test, whole, folder, of=results_of):
+    """With the words of a unittest.TestCase; `of`: what is compared of both folders."""
+    wrong = difference(of(whole), of(folder))
+    test.assertIsNone(wrong, f"{wrong} of {folder} is not that of {whole}")

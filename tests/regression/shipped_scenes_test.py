@@ -2,12 +2,12 @@
 import pathlib
 import unittest
 
-from program import History, ProgramTest, mpm_par, summary
+from program import History, ProgramTest, mpm_par, set_options, summary
 
 INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
 # A million particles and more are too many for a test: fewer of the same.
-COARSER = {"benchmarks/eight_million.yaml": ["--set", "grid.cells=[275, 279]"],
-           "benchmarks/tube_bundle.yaml": ["--set", "grid.spacing=8 um"]}
+COARSER = {"benchmarks/eight_million.yaml": ["grid.cells=[275, 279]"],
+           "benchmarks/tube_bundle.yaml": ["grid.spacing=8 um"]}
 
 
 class ShippedScenes(ProgramTest):
@@ -23,8 +23,8 @@ class ShippedScenes(ProgramTest):
         for name in sorted(scenes):
             with self.subTest(name):
                 folder = self.folder / name
-                plan = self.run_scene(name, "--output", folder, "--set", "steps=2",
-                                      "--set", "output.snapshots=0", *COARSER.get(name, []))
+                plan = self.run_scene(name, "--output", folder, *set_options(
+                    ["steps=2", "output.snapshots=0", *COARSER.get(name, [])]))
                 self.assertIn("time step", plan)
                 self.assertEqual(summary(folder)["steps"], 2)
 

@@ -4,7 +4,7 @@ import pathlib
 import unittest
 
 from confined_compression_test import ExactLine, PLASTIC, elastic_plastic
-from program import History, mpm_par, scene, summary
+from program import History, mpm_par, summary
 
 WOOD = pathlib.Path(__file__).parents[2] / "inputs" / "wood"
 SIDES = {"left": 0, "right": 0, "bottom": 1, "top": 1, "back": 2, "front": 2}

@@ -1,7 +1,7 @@
 """What a specialist would warn of, before a run and in its summary; no warning without cause."""
 import unittest
 
-from program import ProgramTest, mpm_par, summary
+from program import ProgramTest, mpm_par, set_options, summary
 
 SCENE = """
 material: {law: isotropic, youngs_modulus: 10 GPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
@@ -50,13 +50,16 @@ def gray_bmp(rows):
 class Warnings(ProgramTest):
     def warnings(self, boxes, *settings):
         """Those of --check, which are those of the run's summary, on one rank and on two."""
+        return self.warnings_of(self.scene_of(boxes), *settings)
+
+    def scene_of(self, boxes):
         shapes = "\n".join(f"    - box: {box}" for box in boxes)
         file = self.folder / "scene.yaml"
         file.write_text(SCENE.replace("SHAPES", shapes))
-        return self.warnings_of(file, *settings)
+        return file
 
     def warnings_of(self, file, *settings):
-        options = [word for setting in settings for word in ("--set", setting)]
+        options = set_options(settings)
         check = mpm_par("--check", file, *options)
         self.assertEqual(check.returncode, 0, check.stderr)
         said = [line.split("warning", 1)[1].strip() for line in check.stdout.splitlines()
@@ -70,8 +73,7 @@ class Warnings(ProgramTest):
         return said
 
     def test_quiet_leaves_them_alone_on_the_terminal(self):
-        file = self.folder / "scene.yaml"
-        file.write_text(SCENE.replace("SHAPES", "".join(f"    - box: {box}\n" for box in THIN)))
+        file = self.scene_of(THIN)
         for words in ["--check"], ["--output", self.folder / "results"]:
             run = mpm_par(file, "--quiet", "--set", "loading.piston=top", *words, ranks=2)
             self.assertEqual((run.returncode, run.stderr), (0, ""))
@@ -134,11 +136,7 @@ class Warnings(ProgramTest):
                          "1.8e+08 steps", "grid.cells")
 
     def check_only(self, *settings):
-        shapes = "\n".join(f"    - box: {box}" for box in WHOLE)
-        file = self.folder / "scene.yaml"
-        file.write_text(SCENE.replace("SHAPES", shapes))
-        options = [word for setting in settings for word in ("--set", setting)]
-        check = mpm_par("--check", file, *options)
+        check = mpm_par("--check", self.scene_of(WHOLE), *set_options(settings))
         self.assertEqual(check.returncode, 0, check.stderr)
         return [line for line in check.stdout.splitlines() if line.startswith("  warning")]
 

@@ -18,7 +18,8 @@ import xml.etree.ElementTree
 import h5py
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "regression"))
-from same_results import facts_of, files_of  # noqa: E402
+from program import set_options  # noqa: E402
+from same_results import difference, results_of  # noqa: E402
 
 INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
 SCENE = INPUTS / "benchmarks" / "crushed_ring.yaml"
@@ -53,9 +54,8 @@ class Program:
         self.failing_writes = failing_writes
 
     def command(self, ranks, folder, *words, before=()):
-        settings = [word for setting in [*SETTINGS, CHECKPOINTS] for word in ("--set", setting)]
         return [*(self.launcher + [str(ranks)] if ranks > 1 else []), *before, str(self.mpm_par), str(SCENE),
-                "--output", str(folder), *settings, *words]
+                "--output", str(folder), *set_options([*SETTINGS, CHECKPOINTS]), *words]
 
     def start(self, ranks, folder, *words, before=(), **more):
         return subprocess.Popen(self.command(ranks, folder, *words, before=before), stdout=subprocess.PIPE,
@@ -145,7 +145,7 @@ class Trials:
             if status != 0:
                 raise RuntimeError(f"the run without faults ends with {status}: {output}{errors}")
             self.seconds[ranks] = time.monotonic() - begin
-            self.expected[ranks] = files_of(folder), facts_of(folder)
+            self.expected[ranks] = results_of(folder)
         return self.expected[ranks]
 
     def empty_folder(self):
@@ -179,13 +179,9 @@ class Trials:
         return count
 
     def expect_same(self, ranks, folder):
-        expected_files, expected_facts = self.uninterrupted(ranks)
-        found = files_of(folder)
-        for name in sorted({*expected_files, *found}):
-            if expected_files.get(name) != found.get(name):
-                raise Lost(f"{name} is not that of a run without faults")
-        if expected_facts != facts_of(folder):
-            raise Lost("the summary is not that of a run without faults")
+        wrong = difference(self.uninterrupted(ranks), results_of(folder))
+        if wrong:
+            raise Lost(f"{wrong} is not that of a run without faults")
 
     def take_up(self, ranks, folder):
         """Goes on, or begins again where there is nothing to go on from."""

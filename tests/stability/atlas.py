@@ -24,6 +24,9 @@ from pathlib import Path
 
 from figures import Scene, failed_at, figures_of
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
+import scene_run  # noqa: E402
+
 HERE = Path(__file__).parent
 PROJECT = HERE.parents[1]
 TABLE = HERE / "table.json"
@@ -78,15 +81,10 @@ def message_of(output):
 
 def run(mpm_par, table, case, method, folder):
     """A row of the results."""
-    settings = settings_of(table, case, method)
-    command = [str(mpm_par), str(HERE / case["scene"]), "--output", str(folder)]
-    for setting in settings:
-        command += ["--set", setting]
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = scene_run.ended_or_stopped(mpm_par, HERE / case["scene"], folder,
+                                      settings_of(table, case, method))
     row = dict(zip(("shape_function", "scheme", "update_order"), keys_of(method)))
     row |= {"case": case["name"], "scene": case["scene"], "beyond": "", "message": ""}
-    if done.returncode not in (0, 3):
-        raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
     row["cfl"] = float(f"{Scene(folder).cfl:.3g}")
     if done.returncode == 3:
         return row | {"verdict": "fails", "failed_at": failed_at(folder, done.stderr),

@@ -16,12 +16,12 @@ stay. 0 is: no CFL down to 0.05 is borne.
 """
 import argparse
 import json
-import subprocess
 import tempfile
 from pathlib import Path
 
 from atlas import HERE, TABLE, keys_of
 from figures import Scene, energies, growth, history
+import scene_run
 
 FILE = HERE / "critical_cfl.json"
 LOWEST, HIGHEST = 0.05, 3.0  # the range that is looked at; a scene takes none above 3
@@ -48,13 +48,8 @@ def run(mpm_par, scene, settings, method, cfl, folder):
     settings = settings + [f"numerics.{key}={value}" for key, value in
                 zip(("shape_function", "scheme", "update_order"), keys_of(method))]
     settings += ["output.snapshots=0"] + ([] if cfl is None else [f"numerics.cfl={cfl:.6g}"])
-    command = [str(mpm_par), str(HERE / "scenes" / scene), "--output", str(folder)]
-    for setting in settings:
-        command += ["--set", setting]
-    done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode not in (0, 3):
-        raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
-    return done.returncode == 0
+    return scene_run.ended_or_stopped(mpm_par, HERE / "scenes" / scene, folder,
+                                      settings).returncode == 0
 
 
 def largest(bears, start):

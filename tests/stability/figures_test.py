@@ -2,7 +2,6 @@
 
     figures_test.py MPM_PAR
 """
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,6 +11,7 @@ import numpy
 
 from atlas import defect
 from figures import energies, figures_of, pieces, snapshots
+import scene_run
 
 SCENES = Path(__file__).with_name("scenes")
 MPM_PAR = sys.argv.pop(1) if len(sys.argv) > 1 else None
@@ -20,10 +20,7 @@ MPM_PAR = sys.argv.pop(1) if len(sys.argv) > 1 else None
 class Figures(unittest.TestCase):
     def run_scene(self, name, *settings):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        command = [MPM_PAR, str(SCENES / name), "--output", str(folder)]
-        for setting in settings:
-            command += ["--set", setting]
-        done = subprocess.run(command, capture_output=True, text=True)
+        done = scene_run.ended_or_stopped(MPM_PAR, SCENES / name, folder, settings)
         self.assertEqual(done.returncode, 0, done.stderr)
         return folder
 

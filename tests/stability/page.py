@@ -4,10 +4,10 @@
 """
 import csv
 import json
-import sys
 
-from atlas import FIGURES, HERE, PROJECT, RESULTS, TABLE, bounds_of, keys_of
+from atlas import FIGURES, HERE, PROJECT, RESULTS, TABLE, keys_of
 from critical_cfl import FILE as CRITICAL
+from written_page import table as markdown, write_or_check
 
 PAGE = PROJECT / "docs" / "stability.md"
 INTRODUCTION = (HERE / "introduction.md").read_text()
@@ -57,11 +57,10 @@ def results():
 
 def table_of(cases, methods, rows, letters):
     heads = [method.removesuffix(" musl").replace(" ", ", ", 1) for method in methods]
-    text = ["| scene | " + " | ".join(heads) + " |", "|---|" + "---|" * len(methods)]
-    for case in cases:
-        cells = [cell(rows.get((case["name"], method)), letters) for method in methods]
-        text.append(f"| {case['what']} (`{case['name']}`) | " + " | ".join(cells) + " |")
-    return "\n".join(text) + "\n"
+    lines = [[f"{case['what']} (`{case['name']}`)",
+              *(cell(rows.get((case["name"], method)), letters) for method in methods)]
+             for case in cases]
+    return markdown(["scene", *heads], lines)
 
 
 def bounds_text(table):
@@ -69,13 +68,12 @@ def bounds_text(table):
         return f"`{name}` " + ", ".join(([f"at least {low:g}"] if low is not None else []) +
                                         ([f"at most {high:g}"] if high is not None else []) or
                                         ["not judged"])
-    text = ["Bounds: " + "; ".join(one(name, *limits) for name, limits in table["bounds"].items()) +
-            ". Where a scene has its own:", "", "| scene | bounds |", "|---|---|"]
-    for case in table["cases"]:
-        if case.get("bounds"):
-            text.append(f"| `{case['name']}` | " + "; ".join(
-                one(name, *limits) for name, limits in case["bounds"].items()) + " |")
-    return "\n".join(text) + "\n"
+    def all_of(bounds):
+        return "; ".join(one(name, *limits) for name, limits in bounds.items())
+    lines = [[f"`{case['name']}`", all_of(case["bounds"])] for case in table["cases"]
+             if case.get("bounds")]
+    return (f"Bounds: {all_of(table['bounds'])}. Where a scene has its own:\n\n"
+            + markdown(["scene", "bounds"], lines))
 
 
 def messages(table, rows):
@@ -91,14 +89,16 @@ def messages(table, rows):
 
 
 def critical_text(table):
-    text = ["| shape function, scheme, update order | bar | corner | corner, ratio 0.49 | drift "
-            "| crush | theory | default |", "|---|" + "---|" * 7]
+    heads = ["shape function, scheme, update order", "bar", "corner", "corner, ratio 0.49", "drift",
+             "crush", "theory", "default"]
+    lines = []
     for method, found in json.loads(CRITICAL.read_text()).items():
         measured = [found[name] for name in ("bar", "corner", "corner_nu", "drift", "crush")]
-        text.append(f"| {', '.join(keys_of(method))} | " + " | ".join(
-            "none" if value == 0 else "3 or more" if value >= 3 else f"{value:g}"
-            for value in measured) + f" | {table['limits'][method]:g} | {found['default']:.2g} |")
-    return "\n".join(text) + "\n"
+        lines.append([", ".join(keys_of(method)),
+                      *("none" if value == 0 else "3 or more" if value >= 3 else f"{value:g}"
+                        for value in measured),
+                      f"{table['limits'][method]:g}", f"{found['default']:.2g}"])
+    return markdown(heads, lines)
 
 
 def main():
@@ -119,11 +119,7 @@ def main():
               "## What the program says\n",
               "The message of the first method that fails in each scene:\n",
               messages(table, rows), (HERE / "critical.md").read_text(), critical_text(table)]
-    page = "\n".join(parts)
-    if "--check" not in sys.argv[1:]:
-        PAGE.write_text(page)
-    elif PAGE.read_text() != page:
-        sys.exit(f"{PAGE} is not what {HERE.name}/page.py writes: run it")
+    write_or_check(PAGE, "\n".join(parts))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 """What the snapshots of a turning disc show; the field velocity is in them, and stress."""
 import h5py
-import numpy
 
 from measures.places import snapshots
 

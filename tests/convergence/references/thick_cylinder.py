@@ -9,7 +9,7 @@ u = k c^2 / (2 G r). Compressible solids, as in the scene, have no closed form.
 """
 import numpy
 
-from finite_elements import Plane, patch, towards_start
+from finite_elements import Plane, patch
 
 INNER, OUTER, PLASTIC = 1.0, 2.0, 1.5
 YIELD = 1e-3  # over Young's modulus
