@@ -84,34 +84,9 @@ void TotalLagrangian<Dim>::list_what_is_left()
   if (contact_) contact_->set_cells(contact_cells(occupants_));
 }
 
-template <int Dim>
-void TotalLagrangian<Dim>::archive_failure(Archive& archive)
-{
-  if (!cells_may_fail()) return;
-  const Archive::Section section(archive, "failure");
-  archive.value("cells", failed_.cells, Over::sum);
-  archive.value("id_sum", failed_.id_sum, Over::sum);
-  archive.value("mass", failed_.mass, Over::sum);
-  archive.value("energy", failed_.energy, Over::sum);
-  archive.value("plastic_work", failed_.plastic_work, Over::sum);
-  occupants_.archive(archive);
-  for (std::size_t b = 0; b < cells_.size(); ++b) {
-    const std::string name = "body" + std::to_string(b);
-    if (archive.regroups()) {  // those that have failed are known by what has become of particles
-      archive.pass_over(name);
-      continue;
-    }
-    const Archive::Section of_body(archive, name);
-    cells_[b].archive(archive);
-  }
-  if (archive.is_loading()) list_what_is_left();
-}
-
 template std::vector<double> TotalLagrangian<2>::remove_failed();
 template std::vector<double> TotalLagrangian<3>::remove_failed();
 template void TotalLagrangian<2>::part(std::span<const double>);
 template void TotalLagrangian<3>::part(std::span<const double>);
-template void TotalLagrangian<2>::archive_failure(Archive&);
-template void TotalLagrangian<3>::archive_failure(Archive&);
 
 }  // namespace mpm

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
@@ -52,7 +51,7 @@ std::filesystem::path file_in_writing;  // for those who have to say that it fai
 /// A rank whose write fails in the middle of a collective one leaves the others waiting for it for
 /// ever, in MPI (Open MPI 4: io/ompio) or in HDF5's own messages, and HDF5 1.10 crashes when it
 /// ends with a file that cannot be closed. So the rank that sees the failure says so and ends all.
-void end_all_ranks(const char* what, int error)
+[[noreturn]] void end_all_ranks(const char* what, int error)
 {
   char words[MPI_MAX_ERROR_STRING] = "fewer bytes than asked for";
   int length = 0;
@@ -63,9 +62,7 @@ void end_all_ranks(const char* what, int error)
   fmt::print(stderr, "{}: {} failed{} ({}). Check free space, quota and disk.\n",
              file_in_writing.string(), what, rank > 0 ? fmt::format(" on rank {}", rank) : "",
              words);
-  std::fflush(nullptr);
-  if (ranks_of(MPI_COMM_WORLD) > 1) MPI_Abort(MPI_COMM_WORLD, int(ExitStatus::file_failure));
-  std::_Exit(int(ExitStatus::file_failure));
+  end_with_open_files();
 }
 
 int expect_good(const char* what, int error)

@@ -21,6 +21,22 @@ constexpr std::int64_t piece = 1 << 18;
 template <class T>
 constexpr char letter_of = std::is_same_v<T, double> ? 'd' : 'i';
 
+/// Places in a list, from its least number to its greatest.
+std::vector<std::size_t> ascending(std::span<const std::int64_t> list)
+{
+  std::vector<std::size_t> order(list.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](std::size_t k) { return list[k]; });
+  return order;
+}
+
+/// Of two ranks' values.
+template <class T>
+T together(T one, T other, Over over)
+{
+  return over == Over::sum ? one + other : std::max(one, other);
+}
+
 }  // namespace
 
 RegroupedState::RegroupedState(MPI_Comm comm, const std::filesystem::path& file)
@@ -78,14 +94,8 @@ void RegroupedState::combine(std::string_view name, std::span<T> values, Over ov
   const int ranks = over == Over::same ? 1 : int(found.entry.lengths.size());
   for (int rank = 0; rank < ranks; ++rank) {
     const auto part = std::get<std::vector<T>>(read_part(input_, found.name, found.entry, rank));
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      if (rank == 0)
-        values[k] = part[k];
-      else if (over == Over::sum)
-        values[k] += part[k];
-      else
-        values[k] = std::max(values[k], part[k]);
-    }
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] = rank == 0 ? part[k] : together(values[k], part[k], over);
   }
   if (over == Over::sum && !is_first_) std::ranges::fill(values, T(0));
 }
@@ -125,13 +135,10 @@ void RegroupedState::take_rows(std::string_view name, std::span<const std::int64
   const Value found = find(name);
   if (rows.empty() || values.empty()) return;
   const auto width = std::int64_t(values.size() / rows.size());
-  const std::int64_t all = found.entry.before(int(found.entry.lengths.size()));
-  std::vector<std::size_t> order(rows.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](std::size_t k) { return rows[k]; });
+  const std::int64_t all = found.entry.length();
   std::vector<T> read;
   std::int64_t first = 0;
-  for (const std::size_t k : order) {
+  for (const std::size_t k : ascending(rows)) {
     const std::int64_t at = rows[k] * width;
     if (at + width > first + std::int64_t(read.size())) {
       first = at;
@@ -158,11 +165,9 @@ std::vector<std::int64_t> RegroupedState::places_of(std::string_view name,
                                                     std::span<const std::int64_t> keys)
 {
   const Value found = find(name);
-  std::vector<std::size_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, {}, [&](std::size_t k) { return keys[k]; });
+  const std::vector<std::size_t> order = ascending(keys);
   std::vector<std::int64_t> places(keys.size(), -1);
-  const std::int64_t all = found.entry.before(int(found.entry.lengths.size()));
+  const std::int64_t all = found.entry.length();
   for (std::int64_t first = 0; first < all; first += piece) {
     const std::vector<std::int64_t> read =
         input_.read_rows<std::int64_t>(dataset_of(found.name), first, std::min(piece, all - first));
@@ -181,7 +186,7 @@ std::vector<std::int64_t> RegroupedState::rows_where(
     const std::function<bool(std::span<const double> row)>& wanted)
 {
   const Value found = find(name);
-  const std::int64_t all = found.entry.before(int(found.entry.lengths.size())) / width;
+  const std::int64_t all = found.entry.length() / width;
   std::vector<std::int64_t> rows;
   const std::int64_t at_once = piece / width;
   for (std::int64_t first = 0; first < all; first += at_once) {

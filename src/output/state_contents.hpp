@@ -29,6 +29,7 @@ struct StateEntry {
   std::vector<std::int64_t> lengths, checksums;
 
   std::int64_t before(int rank) const;  ///< how much of it stands before this rank's part
+  std::int64_t length() const { return before(int(lengths.size())); }  ///< of all ranks
 };
 
 /// Values by name. Throws FileError if the file is not whole or not of this kind.

@@ -24,7 +24,6 @@ bool files_are_left_open()
 void end_with_open_files()
 {
   std::fflush(nullptr);
-  MPI_Barrier(MPI_COMM_WORLD);  // rank 0 has said what went wrong
   if (ranks_of(MPI_COMM_WORLD) > 1) MPI_Abort(MPI_COMM_WORLD, int(ExitStatus::file_failure));
   std::_Exit(int(ExitStatus::file_failure));
 }

@@ -3,6 +3,7 @@
 #include <mpm/parallel/session.hpp>
 
 #include <csignal>
+#include <cstdio>
 #include <numeric>
 #include <string>
 
@@ -28,7 +29,11 @@ Session::Session(int argc, char** argv, const std::vector<std::string>& petsc_op
 
 Session::~Session()
 {
-  if (files_are_left_open()) end_with_open_files();
+  if (files_are_left_open()) {
+    std::fflush(nullptr);
+    MPI_Barrier(MPI_COMM_WORLD);  // rank 0 has said what went wrong
+    end_with_open_files();
+  }
   PetscFinalize();
   MPI_Finalize();
 }

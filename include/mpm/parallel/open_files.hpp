@@ -6,7 +6,7 @@ namespace mpm {
 /// MPI's and HDF5's orderly end would close them: the session ends without it.
 void leave_files_open();
 bool files_are_left_open();
-/// Collective. Ends all ranks with ExitStatus::file_failure, once each of them is here.
+/// Ends all ranks with ExitStatus::file_failure, wherever the others are.
 [[noreturn]] void end_with_open_files();
 
 }  // namespace mpm

@@ -80,26 +80,24 @@ TEST_F(SceneDefaults, AnEmptyLoadCellIsTheDefaultOne)
   EXPECT_EQ(std::get<Loading>(read(smallest).motion).load_cell, std::nullopt);
 }
 
+/// That `write` writes what stands in this file of docs, as `option` of the program does.
+void expect_in_docs(void (*write)(std::ostream&), const std::string& name,
+                    const std::string& option)
+{
+  std::ostringstream written, shipped;
+  write(written);
+  shipped << std::ifstream(MPM_DOCS_DIR "/" + name).rdbuf();
+  EXPECT_TRUE(shipped.str() == written.str()) << "Run: mpm_par " << option << " > docs/" << name;
+}
+
 TEST(InputReference, PageInDocsIsTheOneTheProgramWrites)
 {
-  std::ostringstream written;
-  write_input_reference(written);
-  std::ifstream file(MPM_DOCS_DIR "/input_reference.md");
-  std::ostringstream shipped;
-  shipped << file.rdbuf();
-  EXPECT_TRUE(shipped.str() == written.str())
-      << "Run: mpm_par --input-reference > docs/input_reference.md";
+  expect_in_docs(write_input_reference, "input_reference.md", "--input-reference");
 }
 
 TEST(InputSchema, FileInDocsIsTheOneTheProgramWrites)
 {
-  std::ostringstream written;
-  write_input_schema(written);
-  std::ifstream file(MPM_DOCS_DIR "/scene.schema.json");
-  std::ostringstream shipped;
-  shipped << file.rdbuf();
-  EXPECT_TRUE(shipped.str() == written.str())
-      << "Run: mpm_par --input-schema > docs/scene.schema.json";
+  expect_in_docs(write_input_schema, "scene.schema.json", "--input-schema");
 }
 
 }  // namespace

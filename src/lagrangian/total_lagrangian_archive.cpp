@@ -1,0 +1,110 @@
+/// Checkpoints: what is kept of a run, and how it goes on from that.
+
+#include <mpm/core/archive.hpp>
+#include <mpm/lagrangian/total_lagrangian.hpp>
+
+#include <string>
+#include <vector>
+
+namespace mpm {
+
+template <int Dim>
+void TotalLagrangian<Dim>::begin_loading(const Ownership<Dim>&)
+{
+  loss_.reset();
+}
+
+template <int Dim>
+void TotalLagrangian<Dim>::archive(Archive& archive)
+{
+  archive.value("time", time_);
+  archive.value("kicked_time", kicked_time_);
+  archive.value("steps", steps_);
+  archive.value("checked", checked_);
+  archive.value("last_step", last_step_);
+  archive.value("largest_speed", largest_speed_, Over::largest);
+  archive.value("friction_work", friction_work_, Over::sum);
+  {
+    const Archive::Section section(archive, "agreed");
+    agreed_.archive(archive);
+  }
+  {
+    const Archive::Section section(archive, "counters");
+    Counters all = counters();
+    all.archive(archive);
+    if (archive.is_loading()) earlier_ += all -= counters();
+  }
+  for (std::size_t b = 0; b < setup_.bodies.size(); ++b) {
+    const Archive::Section section(archive, "body" + std::to_string(b));
+    archive_cells(archive, b);
+  }
+  {
+    const Archive::Section section(archive, "given");
+    given_.archive(archive);
+  }
+  {
+    const Archive::Section section(archive, "nodes");
+    const std::vector<std::int64_t> rows = nodes_->archive(archive);
+    fields_->archive(archive, rows);
+    archive.rows("friction", rows, friction_);
+  }
+  archive_failure(archive);
+  // As far as nodes go until the next check; a mesh at rest needs less.
+  double skin = contact_ ? contact_->skin() : 0;
+  archive.value("skin", skin);
+  setup_.slots.archive(archive);
+  if (!archive.is_loading()) return;
+  loss_.reset();
+  particles_are_present_ = false;
+  if (!contact_) return;
+  contact_->find_pairs(*nodes_, skin);
+  contact_->measure(*nodes_);
+  contact_->forget_stiffness();
+}
+
+/// Regrouped, the cells that are this rank's without those that have failed.
+template <int Dim>
+void TotalLagrangian<Dim>::archive_cells(Archive& archive, std::size_t number)
+{
+  ParticleStore& particles = setup_.bodies[number].particles;
+  if (!archive.regroups()) return particles.archive(archive);
+  std::vector<std::int64_t> rows = archive.places_of("id", particles.ids());
+  std::vector<LocalIndex> failed;
+  for (std::size_t cell = 0; cell < rows.size(); ++cell)
+    if (rows[cell] < 0) failed.push_back(LocalIndex(cell));
+  if (!failed.empty()) {
+    cells_[number].erase(setup_.bodies[number], failed, least_stretches_[number]);
+    rows = archive.places_of("id", particles.ids());
+  }
+  particles.take(archive, rows);
+}
+
+template <int Dim>
+void TotalLagrangian<Dim>::archive_failure(Archive& archive)
+{
+  if (!cells_may_fail()) return;
+  const Archive::Section section(archive, "failure");
+  archive.value("cells", failed_.cells, Over::sum);
+  archive.value("id_sum", failed_.id_sum, Over::sum);
+  archive.value("mass", failed_.mass, Over::sum);
+  archive.value("energy", failed_.energy, Over::sum);
+  archive.value("plastic_work", failed_.plastic_work, Over::sum);
+  occupants_.archive(archive);
+  for (std::size_t b = 0; b < cells_.size(); ++b) {
+    const std::string name = "body" + std::to_string(b);
+    if (archive.regroups()) {  // those that have failed are known by what has become of particles
+      archive.pass_over(name);
+      continue;
+    }
+    const Archive::Section of_body(archive, name);
+    cells_[b].archive(archive);
+  }
+  if (archive.is_loading()) list_what_is_left();
+}
+
+template void TotalLagrangian<2>::begin_loading(const Ownership<2>&);
+template void TotalLagrangian<3>::begin_loading(const Ownership<3>&);
+template void TotalLagrangian<2>::archive(Archive&);
+template void TotalLagrangian<3>::archive(Archive&);
+
+}  // namespace mpm
