@@ -20,7 +20,7 @@ results=results/$name
 step() { printf '\n== %s\n' "$1"; }
 
 step "Build"
-sh jobscripts/build.sh --target mpm_par
+sh jobscripts/build.sh --target mpm_par mpm_curve draw_wood
 
 step "Run inputs/wood/$name.yaml on 2 ranks"
 . jobscripts/environment.sh
