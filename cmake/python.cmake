@@ -1,17 +1,29 @@
-# mpm_find_python(<VARIABLE> <modules>): a Python that imports these modules, into the cache; empty if
-# there is none. Debian's packages serve Debian's Python, which need not be the first in PATH.
+# mpm_find_python(<VARIABLE> <modules> <what for>): a Python that imports these modules, into the cache; empty if
+# there is none, and then the reason on the screen. Debian's packages serve Debian's Python, which need not be the
+# first in PATH.
 find_package(Python3 COMPONENTS Interpreter)
-function(mpm_find_python variable modules)
+function(mpm_find_python variable modules purpose)
   set(${variable} "" CACHE FILEPATH "Python with ${modules}")
-  foreach(python ${Python3_EXECUTABLE} /usr/bin/python3)
-    if(NOT ${variable})
-      execute_process(COMMAND ${python} -c "import ${modules}"
-                      RESULT_VARIABLE lacks OUTPUT_QUIET ERROR_QUIET)
-      if(lacks EQUAL 0)
-        set_property(CACHE ${variable} PROPERTY VALUE ${python})
-      endif()
+  if(${variable})
+    return()
+  endif()
+  set(tried ${Python3_EXECUTABLE} /usr/bin/python3)
+  list(REMOVE_DUPLICATES tried)
+  set(reasons)
+  foreach(python ${tried})
+    execute_process(COMMAND ${python} ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/lacking_modules.py "${modules}"
+                    RESULT_VARIABLE failed OUTPUT_VARIABLE lacks ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+    if(failed)
+      string(APPEND reasons "\n  ${python} does not run")
+    elseif(lacks)
+      string(APPEND reasons "\n  ${python} lacks ${lacks}")
+    else()
+      set_property(CACHE ${variable} PROPERTY VALUE ${python})
+      return()
     endif()
   endforeach()
+  message(STATUS "No ${purpose}: no Python has all of ${modules}${reasons}\n"
+                 "  Run sh jobscripts/install_packages.sh and configure again, or give -D${variable}=FILE.")
 endfunction()
 
 # mpm_python_program(<name>): the launcher <name>.in of this folder becomes a program of the build, which

@@ -1,0 +1,63 @@
+"""The README, as somebody who has nothing but it follows it to a first report of a picture of one's own."""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+import pages
+
+SCRATCH = pathlib.Path(os.environ["MPM_SCRATCH"])
+README = pages.PROJECT / "README.md"
+QUICKSTART = pages.PROJECT / "jobscripts/quickstart.sh"
+# Silent reading of English: 238 words a minute (Brysbaert 2019, J. Mem. Lang. 109:104047).
+MOST_WORDS = 3 * 238
+DRAWN = """seed: 4
+picture: {width_px: 240, height_px: 180, width: 240, height: 180}
+gray: {wall: 190, lumen: 55, noise: 8, shading: 12, blur: 2}
+files:
+  tangential_pitch: 30
+  earlywood: {radial_pitch: 38, wall: 3.5}
+"""
+
+
+def section(title):
+    return re.search(rf"^## {title}\n(.*?)(?=^## )", README.read_text(), re.M | re.S)[1]
+
+
+class Readme(unittest.TestCase):
+    def test_takes_three_minutes_to_read(self):
+        shown = re.sub(r"\]\([^)]*\)", "]", pages.prose(README))  # without where links lead
+        words = [word for word in shown.split() if re.search(r"\w", word)]
+        self.assertLess(len(words), MOST_WORDS, "README.md: move what a newcomer can do without to docs")
+
+    def test_names_programs_that_the_quick_start_has_built(self):
+        target = re.search(r"^sh jobscripts/build\.sh --target (.*)$", QUICKSTART.read_text(), re.M)[1].split()
+        launchers = {"mpm_report", "mpm_study"}  # made when the build is configured
+        for page in README, pages.DOCS / "tutorial.md":
+            named = set(re.findall(r"build/(\w+) ", page.read_text()))
+            self.assertIn("mpm_par", named)
+            self.assertLessEqual(named, {*target, *launchers}, page.name)
+
+    def test_its_scene_is_checked_without_a_warning(self):
+        shutil.rmtree(SCRATCH, ignore_errors=True)
+        SCRATCH.mkdir(parents=True)
+        (SCRATCH / "build").symlink_to(os.environ["MPM_BUILD"])
+        (SCRATCH / "jobscripts").symlink_to(pages.PROJECT / "jobscripts")
+        own = section("Your own micrograph")
+        scene = re.search(r"^```yaml\n(.*?)^```", own, re.M | re.S)[1]
+        picture = re.search(r"micrograph: (\S+)", scene)[1]
+        (SCRATCH / "my_wood.yaml").write_text(scene.replace(picture, "my_wood.bmp"))
+        (SCRATCH / "drawn.yaml").write_text(DRAWN)
+        commands = re.search(r"^```sh\n(.*?)^```", own, re.M | re.S)[1].splitlines()
+        self.assertEqual([line.split()[0] for line in commands], [".", "build/mpm_par", "mpirun"])
+        script = "\n".join(["build/draw_wood drawn.yaml -o my_wood.bmp", *commands[:2]])
+        done = subprocess.run(["sh", "-ec", script], cwd=SCRATCH, capture_output=True, text=True, timeout=200)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("relative density", done.stdout)
+        self.assertNotIn("warning", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
