@@ -227,6 +227,16 @@ class Report(ProgramTest):
         self.assertEqual(run.returncode, 4, run.stderr)
         self.assertRegex(run.stderr, r"^no report: install .*python3-matplotlib.* for .*\.\n$")
 
+    def test_a_build_that_found_no_python_asks_the_one_that_is_there(self):
+        made = pathlib.Path(__file__).parents[2] / "src/python/mpm_report.in"
+        launcher = self.folder / "mpm_report"
+        launcher.write_text(made.read_text().replace("@MPM_REPORT_PYTHON@", ""))
+        (self.folder / "python").symlink_to(REPORT.parent / "python")
+        environment = {name: value for name, value in os.environ.items() if name != "MPM_REPORT_PYTHON"}
+        run = subprocess.run(["sh", launcher, "--help"], capture_output=True, text=True, env=environment)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("usage: mpm_report", run.stdout)
+
 
 if __name__ == "__main__":
     unittest.main()
