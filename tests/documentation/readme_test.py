@@ -1,4 +1,5 @@
-"""The README, as somebody who has nothing but it follows it to a first report of a picture of one's own."""
+"""The README, as somebody who has nothing but it follows it to a first report of a picture of one's own, and the page
+on which it sends those whose light is uneven."""
 import os
 import pathlib
 import re
@@ -40,23 +41,48 @@ class Readme(unittest.TestCase):
             self.assertIn("mpm_par", named)
             self.assertLessEqual(named, {*target, *launchers}, page.name)
 
-    def test_its_scene_is_checked_without_a_warning(self):
+    def setUp(self):
         shutil.rmtree(SCRATCH, ignore_errors=True)
         SCRATCH.mkdir(parents=True)
         (SCRATCH / "build").symlink_to(os.environ["MPM_BUILD"])
         (SCRATCH / "jobscripts").symlink_to(pages.PROJECT / "jobscripts")
-        own = section("Your own micrograph")
-        scene = re.search(r"^```yaml\n(.*?)^```", own, re.M | re.S)[1]
-        picture = re.search(r"micrograph: (\S+)", scene)[1]
-        (SCRATCH / "my_wood.yaml").write_text(scene.replace(picture, "my_wood.bmp"))
         (SCRATCH / "drawn.yaml").write_text(DRAWN)
-        commands = re.search(r"^```sh\n(.*?)^```", own, re.M | re.S)[1].splitlines()
-        self.assertEqual([line.split()[0] for line in commands], [".", "build/mpm_par", "mpirun"])
-        script = "\n".join(["build/draw_wood drawn.yaml -o my_wood.bmp", *commands[:2]])
+        self.run_well("build/draw_wood drawn.yaml -o even.bmp")
+
+    def run_well(self, script):
         done = subprocess.run(["sh", "-ec", script], cwd=SCRATCH, capture_output=True, text=True, timeout=200)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("relative density", done.stdout)
-        self.assertNotIn("warning", done.stdout)
+        return done.stdout
+
+    def plan(self, picture):
+        """Of a picture in the README's scene, by its own commands up to the run."""
+        own = section("Your own micrograph")
+        scene = re.search(r"^```yaml\n(.*?)^```", own, re.M | re.S)[1]
+        (SCRATCH / "my_wood.yaml").write_text(re.sub(r"micrograph: \S+", f"micrograph: {picture}", scene))
+        commands = re.search(r"^```sh\n(.*?)^```", own, re.M | re.S)[1].splitlines()
+        self.assertEqual([line.split()[0] for line in commands], [".", "build/mpm_par", "mpirun"])
+        return self.run_well("\n".join(commands[:2]))
+
+    def density(self, picture):
+        return float(re.search(r"picture +relative density (\S+)", self.plan(picture))[1])
+
+    def test_its_scene_is_checked_without_a_warning(self):
+        self.assertNotIn("warning", self.plan("even.bmp"))
+
+    def test_lines_of_python_even_out_the_light(self):
+        python = os.environ["MPM_REPORT_PYTHON"]
+        if not python or subprocess.run([python, "-c", "import scipy"], capture_output=True).returncode:
+            self.skipTest("no Python with Pillow and SciPy")
+        lines = re.search(r"^```python\n(.*?)^```", (pages.DOCS / "micrographs.md").read_text(), re.M | re.S)[1]
+        (SCRATCH / "even.py").write_text(lines)
+        picture = bytearray((SCRATCH / "even.bmp").read_bytes())
+        pixels = int.from_bytes(picture[10:14], "little")
+        for place in range(pixels, len(picture)):  # rows of 240 bytes, one a pixel: light falls to 0.4
+            picture[place] = round(picture[place] * (1 - 0.6 * ((place - pixels) % 240) / 240))
+        (SCRATCH / "photo.png").write_bytes(picture)
+        self.run_well(f"{python} even.py")
+        even, uneven, mended = (self.density(name) for name in ("even.bmp", "photo.png", "my_wood.png"))
+        self.assertLess(abs(mended - even), abs(uneven - even) / 4)
 
 
 if __name__ == "__main__":
