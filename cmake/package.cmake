@@ -15,9 +15,9 @@ set(CPACK_STRIP_FILES TRUE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS TRUE)
-# mpirun; what mpm_study and the drawing of curves import; what the libraries are linked with.
+# mpirun; what mpm_study and mpm_report import; what the libraries are linked with.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-yaml, python3-numpy, python3-matplotlib")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-yaml, python3-numpy, python3-h5py, python3-matplotlib, python3-pil")
 string(CONCAT CPACK_DEBIAN_PACKAGE_SUGGESTS
   "petsc-dev, libhdf5-openmpi-dev, libmetis-dev, libeigen3-dev, libyaml-cpp-dev, libcli11-dev, "
   "libspdlog-dev, libfmt-dev, libpugixml-dev, nlohmann-json3-dev, libudunits2-dev, libmuparser-dev, "

@@ -91,6 +91,8 @@ class InstallTest(unittest.TestCase):
         for library in ("libpetsc", "libhdf5-openmpi", "libmetis", "libopenmpi", "libudunits2",
                         "libyaml-cpp"):
             self.assertIn(library, fields["Depends"])
+        for module in ("yaml", "numpy", "h5py", "matplotlib", "pil"):  # what mpm_report asks for
+            self.assertIn(f"python3-{module}", fields["Recommends"])
         self.assertLessEqual(len(fields["Description"]), 80)
         wrong = [line for line in run("dpkg-deb", "--contents", package).splitlines()
                  if line.split()[1] != "root/root"
