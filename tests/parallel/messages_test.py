@@ -6,8 +6,8 @@ import subprocess
 import unittest
 from unittest import mock
 
-from program import ProgramTest, mpm_par, scene
-from same_results import files_of
+from program import ProgramTest, mpm_par, scene, set_options
+from same_results import expect_same, files_of
 
 CHECKED = os.environ["MPM_CHECKED_MESSAGES"]
 FIELDS = "output.fields=[velocity, stress, plastic_work, id, rank]"
@@ -33,10 +33,9 @@ def checked(seed, delay):
 class Messages(ProgramTest):
     def run_it(self, name, settings, ranks, label):
         folder = self.folder / label
-        options = [word for setting in settings for word in ("--set", setting)]
-        run = mpm_par(scene(name), "--output", folder, *options, ranks=ranks)
+        run = mpm_par(scene(name), "--output", folder, *set_options(settings), ranks=ranks)
         self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
-        return run.stderr, files_of(folder)
+        return run.stderr, folder
 
     def test_whenever_messages_come_the_answer_is_the_same(self):
         for number, (ranks, name, settings) in enumerate(RUNS):
@@ -49,7 +48,7 @@ class Messages(ProgramTest):
                     self.assertEqual(len(counts), ranks, said)
                     for count in counts:
                         self.assertGreater(int(count[0]), 100)
-                    self.assertEqual(plain, found)
+                    expect_same(self, plain, found, of=files_of)
 
 
 class Checker(unittest.TestCase):

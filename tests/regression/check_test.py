@@ -7,7 +7,7 @@ import time
 import unittest
 import zlib
 
-from program import ProgramTest, mpm_par, scene
+from program import ProgramTest, mpm_par, scene, set_options
 
 BLOCK = scene("confined_block")
 
@@ -70,8 +70,8 @@ class Check(ProgramTest):
         self.assertGreater(seconds, 1e-3 * ms * 2000 / 10)
 
     def test_files_are_as_large_as_said(self):
-        settings = ("--set", "output.snapshots=3", "--set", "output.checkpoints={steps: 100, keep: 1}",
-                    "--set", "output.history_lines=50", "--set", "loading.strain=1 %")
+        settings = set_options(["output.snapshots=3", "output.checkpoints={steps: 100, keep: 1}",
+                                "output.history_lines=50", "loading.strain=1 %"])
         words = words_of(self.check(BLOCK, *settings))["files"]
         lines, count, each, kept = re.search(
             r"history of (\d+) lines (\d+) snapshots, (\d+) kB each, .* "
