@@ -15,29 +15,19 @@ void take_down(int signal)
   last_signal = signal;
 }
 
-void set_all(void (*handler)(int), int flags)
+}  // namespace
+
+void watch_for_interruptions()
 {
+  last_signal = 0;
   struct sigaction action {};
-  action.sa_handler = handler;
-  action.sa_flags = flags;
+  action.sa_handler = take_down;
+  action.sa_flags = int(SA_RESETHAND) | SA_RESTART;
   sigemptyset(&action.sa_mask);
   for (const int signal : watched) sigaction(signal, &action, nullptr);
 }
 
-}  // namespace
-
-InterruptionSignals::InterruptionSignals()
-{
-  last_signal = 0;
-  set_all(take_down, int(SA_RESETHAND) | SA_RESTART);
-}
-
-InterruptionSignals::~InterruptionSignals()
-{
-  set_all(SIG_DFL, 0);
-}
-
-int InterruptionSignals::seen()
+int interruption_seen()
 {
   return last_signal;
 }

@@ -29,6 +29,7 @@ double step_cost(const scene::Numerics& numerics)
 std::string memory(double bytes)
 {
   if (bytes < 1e6) return fmt::format("{:.0f} kB", 1e-3 * bytes);
+  if (bytes < 1e7) return fmt::format("{:.1f} MB", 1e-6 * bytes);
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
                      : fmt::format("{:.1f} GB", bytes / 1e9);
 }

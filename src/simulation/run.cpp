@@ -169,7 +169,7 @@ class Run {
     const double seconds = seconds_since(start_);
     // Not all ranks get a signal, and none have the same clock.
     std::array<double, 3> asked{
-        double(InterruptionSignals::seen()),
+        double(interruption_seen()),
         continuation_.time_limit && seconds > *continuation_.time_limit ? 1.0 : 0.0,
         schedule_.is_due_by_clock(seconds) ? 1.0 : 0.0};
     largest_over_ranks(comm_, asked);

@@ -189,7 +189,7 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const RunRequest& r
     observers.push_back(&snapshots.emplace(preparation, folder));
   else
     on_rank_zero(comm, [&] { output::SnapshotSeries::take_down(folder, preparation.scene.name); });
-  const InterruptionSignals signals;
+  watch_for_interruptions();
   const RunResult result = run<Dim>(preparation, observers, std::move(continuation));
   on_rank_zero(comm, [&] {
     write_summary(preparation, result, exact, folder / "summary.json");

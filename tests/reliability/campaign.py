@@ -41,6 +41,7 @@ def plan(faults, kills, others):
     for missing, kind in ((None, lambda n: faults.signalled(n, signal.SIGTERM)),
                           (None, lambda n: faults.signalled(n, signal.SIGINT)),
                           (None, lambda n: faults.signalled(n, signal.SIGUSR1)),
+                          (None, lambda n: faults.signalled_at_end(n, signal.SIGTERM)),
                           (None, faults.out_of_time), (library, faults.failing_writes),
                           (None, faults.files_of_limited_size), (mount, faults.full_disk),
                           (None, faults.damaged_checkpoint)):

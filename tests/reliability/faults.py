@@ -49,6 +49,18 @@ class Faults(Trials):
             raise Lost(f"does not name the signal: {errors}")
         return self.judge(what.name, ranks, folder, started.returncode)
 
+    def signalled_at_end(self, ranks, what):
+        """When its summary is there a run is whole, and nothing is left that a signal could end."""
+        folder = self.empty_folder()
+        started = self.program.start(ranks, folder)
+        self.wait_for(started, lambda: (folder / "summary.json").exists())
+        for pid in self.program.ranks_of(started):
+            kill(pid, what)
+        _, errors = self.program.end_of(started)
+        if started.returncode != 0:
+            raise Lost(f"ends with {started.returncode}: {errors}")
+        return self.judge(f"{what.name} at the end", ranks, folder, started.returncode)
+
     def out_of_time(self, ranks):
         folder = self.empty_folder()
         limit = f"{1000 * self.moment(ranks):.0f} ms"

@@ -50,6 +50,10 @@ class SomeFaults(unittest.TestCase):
         for ranks, what in zip(RANKS, (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1)):
             self.faults.signalled(ranks, what)
 
+    def test_signals_at_the_end(self):
+        for what in signal.SIGTERM, signal.SIGINT, signal.SIGUSR1:
+            self.faults.signalled_at_end(1, what)
+
     def test_time_limit(self):
         self.faults.out_of_time(2)
 

@@ -3,17 +3,13 @@
 
 namespace mpm {
 
-/// While it lives SIGINT, SIGTERM and SIGUSR1 (which schedulers send ahead of the end) are taken
-/// down instead of ending the program; a second one of the same kind does what it always does.
-class InterruptionSignals {
- public:
-  InterruptionSignals();
-  ~InterruptionSignals();
-  InterruptionSignals(const InterruptionSignals&) = delete;
-  InterruptionSignals& operator=(const InterruptionSignals&) = delete;
+/// From here to the end of the program SIGINT, SIGTERM and SIGUSR1 (which schedulers send ahead of
+/// the end) are taken down instead of ending it; a second one of the same kind does what it always
+/// does. Also behind the run, whose results are whole by then: the first one must not spoil the
+/// exit status.
+void watch_for_interruptions();
 
-  /// The signal that came last to this process, or 0.
-  static int seen();
-};
+/// The signal that came last to this process since then, or 0.
+int interruption_seen();
 
 }  // namespace mpm
