@@ -29,60 +29,64 @@ BEGIN, END = "<!-- campaign.py writes from here -->\n", "<!-- to here -->\n"
 
 
 def plan(faults, kills, others):
-    """(name of a missing tool or None, trial) for each trial, by kind."""
+    """(name of the fault, name of a missing tool or None, trial, ranks) of each."""
     ranks = itertools.cycle((1, 2, 3, 4))
-    kinds = [lambda n: faults.kill_one_rank(n), lambda n: faults.kill_all(n),
-             lambda n: faults.kill_one_rank(n, during_output=True),
-             lambda n: faults.kill_all(n, during_output=True)]
+    kinds = [("kill -9 of one rank", lambda n: faults.kill_one_rank(n)),
+             ("kill -9 of all ranks", lambda n: faults.kill_all(n)),
+             ("kill -9 of one rank, while it writes", lambda n: faults.kill_one_rank(n, during_output=True)),
+             ("kill -9 of all ranks, while they write", lambda n: faults.kill_all(n, during_output=True))]
     for k in range(kills):
-        yield None, kinds[k // 4 % 4], next(ranks)
+        name, trial = kinds[k // 4 % 4]
+        yield name, None, trial, next(ranks)
     library = None if faults.program.failing_writes else "--failing-writes"
     mount = None if os.geteuid() == 0 else "the right to mount"
-    for missing, kind in ((None, lambda n: faults.signalled(n, signal.SIGTERM)),
-                          (None, lambda n: faults.signalled(n, signal.SIGINT)),
-                          (None, lambda n: faults.signalled(n, signal.SIGUSR1)),
-                          (None, lambda n: faults.signalled_at_end(n, signal.SIGTERM)),
-                          (None, faults.out_of_time), (library, faults.failing_writes),
-                          (None, faults.files_of_limited_size), (mount, faults.full_disk),
-                          (None, faults.damaged_checkpoint)):
+    for name, missing, trial in (
+            ("SIGTERM", None, lambda n: faults.signalled(n, signal.SIGTERM)),
+            ("SIGINT", None, lambda n: faults.signalled(n, signal.SIGINT)),
+            ("SIGUSR1", None, lambda n: faults.signalled(n, signal.SIGUSR1)),
+            ("SIGTERM behind the end", None, lambda n: faults.signalled_at_end(n, signal.SIGTERM)),
+            ("--time-limit", None, faults.out_of_time), ("failing write", library, faults.failing_writes),
+            ("files of limited size", None, faults.files_of_limited_size), ("full disk", mount, faults.full_disk),
+            ("checkpoint cut off, or a bit flipped", None, faults.damaged_checkpoint)):
         for _ in range(others):
-            yield missing, kind, next(ranks)
+            yield name, missing, trial, next(ranks)
 
 
-def carry_out(faults, trials):
-    outcomes, lost, missing = [], [], set()
-    for tool, trial, ranks in trials:
+def carry_out(trials):
+    """Outcomes and losses by the name of the fault, and what tools are missing."""
+    outcomes, lost, missing = collections.defaultdict(list), collections.defaultdict(list), set()
+    for number, (name, tool, trial, ranks) in enumerate(trials, 1):
         if tool:
             missing.add(tool)
             continue
         try:
             outcome = trial(ranks)
-            outcomes.append(outcome)
-            print(f"{len(outcomes):4} {outcome.fault}, {ranks} ranks: status {outcome.status}, "
+            outcomes[name].append(outcome)
+            print(f"{number:4} {name}, {ranks} ranks: status {outcome.status}, "
                   f"{100 * outcome.lost_share:.1f} % again  {outcome.message[:100]}", flush=True)
         except KeyboardInterrupt:
             break
         except Lost as why:
-            lost.append(f"{ranks} ranks: {why}")
-            print("LOST", lost[-1], flush=True)
+            lost[name].append(f"{ranks} ranks: {why}")
+            print(f"{number:4} {name}: LOST", lost[name][-1], flush=True)
     return outcomes, lost, missing
 
 
 def table(outcomes, lost, missing, seconds):
     """Markdown."""
-    kinds = collections.defaultdict(list)
-    for outcome in outcomes:
-        kinds[outcome.fault].append(outcome)
     lines = ["| fault | tried | before the end | status | runs lost | most work to do again |",
              "|---|---|---|---|---|---|"]
-    for fault, found in kinds.items():
+    for fault in sorted({*outcomes, *lost}):
+        found, gone = outcomes[fault], len(lost[fault])
         hit = [outcome for outcome in found if outcome.status != 0]
         states = ", ".join(str(s) for s in sorted({outcome.status for outcome in hit}, key=abs))
         most = max((outcome.lost_share for outcome in found), default=0)
-        lines.append(f"| {fault} | {len(found)} | {len(hit)} | {states} | 0 | {100 * most:.1f} % |")
-    lines += ["", f"{len(outcomes) + len(lost)} trials in {seconds / 60:.0f} minutes on {os.cpu_count()} cores of "
-              f"{platform.machine()}; runs lost: **{len(lost)}**."]
-    lines += [f"- lost: {why}" for why in lost]
+        lines.append(f"| {fault} | {len(found) + gone} | {len(hit) + gone} | {states} | {gone} | "
+                     f"{100 * most:.1f} % |")
+    tried, gone = (sum(map(len, some.values())) for some in (outcomes, lost))
+    lines += ["", f"{tried + gone} trials in {seconds / 60:.0f} minutes on {os.cpu_count()} cores of "
+              f"{platform.machine()}; runs lost: **{gone}**."]
+    lines += [f"- lost: {fault}, {why}" for fault in lost for why in lost[fault]]
     if missing:
         lines += ["", "Not tried for want of " + ", ".join(sorted(missing)) + "."]
     return "\n".join(lines) + "\n"
@@ -105,13 +109,13 @@ def main():
         begin = time.monotonic()
         trials = list(plan(faults, asked.kills, asked.others))
         faults.random.shuffle(trials)
-        outcomes, lost, missing = carry_out(faults, trials)
+        outcomes, lost, missing = carry_out(trials)
         text = table(outcomes, lost, missing, time.monotonic() - begin)
     print(text)
     if asked.write:
         before, rest = PAGE.read_text().split(BEGIN)
         PAGE.write_text(before + BEGIN + text + END + rest.split(END)[1])
-    return 1 if lost else 0
+    return 1 if any(lost.values()) else 0
 
 
 if __name__ == "__main__":
