@@ -8,9 +8,9 @@
 namespace mpm {
 
 struct StepMeasurement {
-  GlobalIndex steps = 0;  ///< measured
-  std::string why_none{};  ///< in words, where there are none
-  double seconds = 0;     ///< of one step
+  GlobalIndex steps = 0;                            ///< measured
+  std::string why_none{};                           ///< in words, where there are none
+  double seconds = 0;                               ///< of one step
   double snapshot_bytes = 0, checkpoint_bytes = 0;  ///< of one, before any compression
 };
 
