@@ -42,6 +42,21 @@ std::int64_t big_endian(std::span<const std::uint8_t> bytes, std::size_t at)
   return value;
 }
 
+/// The loader takes memory for as many bytes as a chunk says that it has, before it looks for them.
+void check_chunks(std::span<const std::uint8_t> bytes)
+{
+  constexpr std::size_t first = 8, around = 12;  // length and name before, checksum behind
+  for (std::size_t at = first; at + around <= bytes.size();) {
+    const std::size_t length = std::size_t(big_endian(bytes, at));
+    if (length > bytes.size() - at - around)
+      throw InputError(
+          fmt::format("is a damaged PNG (a part of it has {} bytes, and {} are left). Copy or save "
+                      "the file again.",
+                      length, bytes.size() - at - around));
+    at += around + length;
+  }
+}
+
 }  // namespace
 
 GrayImage read_png(std::span<const std::uint8_t> bytes)
@@ -53,6 +68,7 @@ GrayImage read_png(std::span<const std::uint8_t> bytes)
   // A file too short to have a header is reported by the loader.
   if (bytes.size() >= height_at + 4)
     check_dimensions(big_endian(bytes, width_at), big_endian(bytes, height_at));
+  check_chunks(bytes);
   if (stbi_is_16_bit_from_memory(bytes.data(), size))
     return loaded<std::uint16_t>(bytes, stbi_load_16_from_memory);
   return loaded<std::uint8_t>(bytes, stbi_load_from_memory);

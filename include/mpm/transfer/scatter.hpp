@@ -153,7 +153,9 @@ class Scatter {
                                         double mass, const R& plain, const R (&tau)[Dim],
                                         const R (&along)[Dim], int lane)
   {
-    const auto &w = stencil.weight, &g = stencil.gradient, &offset = stencil.offset;
+    const auto& w = stencil.weight;
+    const auto& g = stencil.gradient;
+    const auto& offset = stencil.offset;
     for (int row = 0; row < rows; ++row) {
       const std::size_t node = first_of_row(base, row);
       if constexpr (mass_apart) {
