@@ -54,7 +54,7 @@ class Tutorial(unittest.TestCase):
         self.assertGreaterEqual(self.commands, 6)
 
     def test_the_plan_is_the_one_that_the_page_shows(self):
-        plan = self.printed["build/mpm_par --check my_wood.yaml"].splitlines()
+        plan = self.printed["build/mpm_par --check my_wood.yaml --preview seen.png"].splitlines()
         shown = re.findall(r"^    (\w.*)$", PAGE.read_text(), re.M)
         self.assertGreater(len(shown), 4)
         for line in shown:

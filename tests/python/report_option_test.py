@@ -43,7 +43,7 @@ class ReportOption(ProgramTest):
         self.assertFalse((self.folder / "results").exists())
         run = self.run_it("--check")
         self.assertEqual(run.returncode, 2, run.stderr)
-        self.assertIn("--report is of a run, and --check runs nothing", run.stderr)
+        self.assertIn("--report is of a run, and --check leaves none", run.stderr)
 
     def test_whatever_becomes_of_the_report_the_status_is_the_runs(self):
         failing = self.folder / "failing"
