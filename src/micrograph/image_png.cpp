@@ -45,15 +45,16 @@ std::int64_t big_endian(std::span<const std::uint8_t> bytes, std::size_t at)
 /// The loader takes memory for as many bytes as a chunk says that it has, before it looks for them.
 void check_chunks(std::span<const std::uint8_t> bytes)
 {
-  constexpr std::size_t first = 8, around = 12;  // length and name before, checksum behind
-  for (std::size_t at = first; at + around <= bytes.size();) {
+  constexpr std::size_t first = 8, ahead = 8, behind = 4;  // length and name; checksum
+  for (std::size_t at = first; at + ahead <= bytes.size();) {
     const std::size_t length = std::size_t(big_endian(bytes, at));
-    if (length > bytes.size() - at - around)
+    const std::size_t left = bytes.size() - at - ahead;
+    if (length > left)
       throw InputError(
           fmt::format("is a damaged PNG (a part of it has {} bytes, and {} are left). Copy or save "
                       "the file again.",
-                      length, bytes.size() - at - around));
-    at += around + length;
+                      length, left));
+    at += ahead + length + behind;
   }
 }
 
