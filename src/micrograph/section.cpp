@@ -118,6 +118,7 @@ Section::Section(const scene::Scene& scene, GrayImage image, const IndexVec<2>& 
                          : micrograph.threshold_rule == ThresholdRule::otsu
                              ? otsu_threshold(image_.gray)
                              : micrograph.threshold;
+    figures_.threshold += micrograph.threshold_shift;
     of_pixels = {wall_band(figures_.threshold, micrograph.wall)};
   }
   bands_ = of_pixels;

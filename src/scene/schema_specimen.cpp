@@ -26,6 +26,7 @@ struct ThresholdKey {
 namespace {
 
 constexpr Bound gray_level = from_to(0, 255);
+constexpr Bound gray_shift = from_to(-255, 255);
 constexpr Bound relative_density = between(0, 1);
 const std::string density_key = "target_relative_density";
 
@@ -184,6 +185,10 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
            .default_text = "none",
            .excludes = "threshold"},
           "choose the threshold that gives this relative density")
+          .when(without_bands),
+      image_member("threshold_shift", &I::threshold_shift, {.bound = gray_shift},
+                   "gray levels added to the threshold, also to one that was found: what a figure "
+                   "owes to it")
           .when(without_bands),
       image_member("sampling", &I::sampling, {},
                    "match: the particles have the picture's density (with bands that of every "

@@ -11,9 +11,12 @@ class Combination:
     settings: tuple  # pairs of a key of the scene and its value as text: what varies
     ranks: int
     only_reference: bool = False  # run for its result, no point of the study
+    label: str = ""  # what its entry of runs is called
+    labelled: tuple = ()  # keys whose values the label stands for
 
     def value(self, key):
-        return str(self.ranks) if key == "ranks" else dict(self.settings).get(key)
+        of_run = {**dict(self.settings), "ranks": str(self.ranks), "label": self.label}
+        return of_run.get(key)
 
 
 def settings_of(node, where):
@@ -55,13 +58,14 @@ def level_keys(along, varied, combinations):
 def read_combinations(keys, default_ranks):
     """Every combination of the lists of `vary` with every entry of `runs`."""
     lists = _lists(keys["vary"]) if "vary" in keys else {}
-    entries = [{}]
+    entries, labels = [{}], {}
     if "runs" in keys:
         node = keys["runs"]
         if not node.is_list or not node.value:
             raise node.wrong("runs is no list", "Write a list of maps: "
                              "- {numerics.scheme: apic, numerics.cfl: 0.5}.")
-        entries = [settings_of(entry, "an entry of runs") for entry in node.value]
+        entries = [dict(settings_of(entry, "an entry of runs")) for entry in node.value]
+        labels = {id(entry): entry.pop("label").text for entry in entries if "label" in entry}
     varied = list(dict.fromkeys(itertools.chain(lists, *entries)))
     for entry in entries:
         for key in entry:
@@ -69,11 +73,13 @@ def read_combinations(keys, default_ranks):
                 raise entry[key].wrong(f"{key} is varied too", "Set it in vary or in runs.")
     found, nodes = [], {}
     for entry in entries:
+        label = labels.get(id(entry), "")
+        labelled = tuple(entry) if label else ()
         for values in itertools.product(*(node.value for node in lists.values())):
             chosen = {**dict(zip(lists, values)), **entry}
             nodes.update({key: nodes.get(key, node) for key, node in chosen.items()})
             ranks = int(chosen["ranks"].value) if "ranks" in chosen else default_ranks
             settings = tuple((key, chosen[key].text) for key in varied
                              if key in chosen and key != "ranks")
-            found.append(Combination(settings, ranks))
+            found.append(Combination(settings, ranks, label=label, labelled=labelled))
     return list(dict.fromkeys(found)), varied, nodes

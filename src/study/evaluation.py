@@ -35,8 +35,11 @@ class Row:
     peak_memory_mib: float = None
     energy_error: float = None
     rounds: int = 0
+    folder: object = None  # with the results of the first round
     values: dict = dataclasses.field(default_factory=dict)  # by measure: number, array or None
     errors: dict = dataclasses.field(default_factory=dict)  # by measure: fraction or None
+    bars: dict = dataclasses.field(default_factory=dict)  # by measure: convergence.Estimate
+    known: dict = dataclasses.field(default_factory=dict)  # by measure: what others found, SI
     remarks: dict = dataclasses.field(default_factory=dict)  # by measure: why there is none
 
 
@@ -64,10 +67,10 @@ class Outcome:
 
 def label_of(study, combination):
     """Words for a series: values of what varies but the level; `gimp, cfl 0.5`."""
-    words = []
+    words = [combination.label] if combination.label else []
     for key in study.varied:
         value = combination.value(key)
-        if key in study.level_keys or value is None:
+        if key in study.level_keys or value is None or key in combination.labelled:
             continue
         plain = key.split(".")[-1]
         text = resolution.short(key, value)
@@ -101,6 +104,8 @@ def row_of(study, combination, rounds):
     row.particle_steps = row.particles * row.steps
     row.energy_error = summaries[0]["energy_error"]
     judge_energy(row, summaries[0], study.unstable_above)
+    row.folder = rounds[0].folder
+    row.known = study.known_of(combination)
     for measure in study.measures:
         try:
             row.values[measure.name] = results.value(measure, rounds[0])
@@ -196,6 +201,16 @@ def _set_errors(study, measure, rows, found):
             row.errors[measure.name] = results.relative_error(value, reference.value)
 
 
+def _set_bars(study, measure, rows):
+    """The estimated error of the finest run of every ladder of numbers: docs/studies.md."""
+    for series in dict.fromkeys(series_of(study, row) for row in rows):
+        own = ladder(study, measure, [row for row in rows if series_of(study, row) == series])
+        if len(own) < 2 or measure.kind == "curve":
+            continue
+        own[-1].bars[measure.name] = convergence.estimate(
+            [_size(study, row) for row in own], [row.values[measure.name] for row in own])
+
+
 def _set_known_orders(study, measure, points, found):
     """Against what is known the order is that of the errors of the two finest levels."""
     for series, reference in found.items():
@@ -265,9 +280,15 @@ def describe(study, row):
 
 
 def outcome_of(study, measure, rows):
-    """References, errors (set in the rows), front, slopes and targets of one measure."""
+    """References, errors and bars (set in the rows), front, slopes and targets of one measure."""
+    if measure.against is None:
+        for row in rows:
+            row.errors[measure.name] = None
+        return Outcome(measure, {}, {cost: [] for cost in COSTS}, {}, [], [])
     found = references(study, measure, rows)
     _set_errors(study, measure, rows, found)
+    if measure.against in measure_keys.LEARNT:
+        _set_bars(study, measure, rows)
     points = [row for row in rows if row.state == OK and row.errors[measure.name] is not None
               and not row.combination.only_reference]
     if measure.against not in measure_keys.LEARNT and study.along:

@@ -1,9 +1,8 @@
-"""The key `error` of a study file: of which figures the error is taken, and against what."""
+"""The key `error` of a study file: which figures are read, and against what their error is taken."""
 import dataclasses
 
 import resolution
 from checked_keys import known
-from combinations import Combination
 from mpm_par.quantities import to_si
 
 KEYS = ("name", "of", "curve", "mean", "against", "reference")
@@ -19,7 +18,7 @@ class Measure:
     path: str = ""  # in summary.json, for `of`
     column: str = "stress"  # of history.csv, for `curve` and `mean`
     strain: tuple = (0.0, 1.0)  # from, to
-    against: object = "finest"  # a number in SI units, exact, finest or richardson
+    against: object = "finest"  # a number in SI units, exact, finest, richardson; None: no error
     against_text: str = ""  # as it was written
     reference: tuple = None  # pairs of key and value that choose the series, or None: each its own
     reference_run: object = None  # a Combination that is run for the reference alone
@@ -70,8 +69,8 @@ def _reference(keys, against, along, of_level, varied, combinations):
     """The settings that choose the series of the reference, and a run for it alone if needed."""
     node = keys["reference"]
     if against not in LEARNT:
-        raise node.wrong(f"reference does not go with against: {keys['against'].text}",
-                         "Leave it away.")
+        given = f"against: {keys['against'].text}" if against is not None else "no against"
+        raise node.wrong(f"reference does not go with {given}", "Leave it away.")
     chosen = {key: value.text
               for key, value in known(node, tuple(varied), "reference").items()}
     level = {key: chosen.pop(key) for key in of_level if key in chosen}
@@ -95,7 +94,7 @@ def _reference(keys, against, along, of_level, varied, combinations):
                                       "Write it as in vary.") from None
     run = matching[0]
     settings = tuple((key, level.get(key, value)) for key, value in run.settings)
-    return tuple(chosen.items()), Combination(settings, run.ranks, only_reference=True)
+    return tuple(chosen.items()), dataclasses.replace(run, settings=settings, only_reference=True)
 
 
 def _measure(node, along, of_level, varied, combinations):
@@ -104,11 +103,8 @@ def _measure(node, along, of_level, varied, combinations):
     if len(kinds) != 1:
         raise node.wrong(f"error names {' and '.join(kinds) or 'no figure'}",
                          "Give one of of (a path in summary.json), curve and mean.")
-    if "against" not in keys:
-        raise node.wrong("against is missing",
-                         "Write a number with its unit, exact, finest or richardson.")
     kind = kinds[0]
-    against = _against(keys["against"], kind)
+    against = _against(keys["against"], kind) if "against" in keys else None
     if against in LEARNT and not along:
         raise keys["against"].wrong(f"against is {against}, and no key that refines varies",
                                     f"Vary one of {', '.join(resolution.SIZES)}.")
@@ -120,7 +116,8 @@ def _measure(node, along, of_level, varied, combinations):
     if not name.replace("_", "").isalnum():
         raise keys["name"].wrong(f"name is '{name}'", "Use letters, digits and _: it names files.")
     return Measure(name=name, kind=kind, against=against,
-                   against_text=keys["against"].text, reference=reference, reference_run=run,
+                   against_text=keys["against"].text if against is not None else "",
+                   reference=reference, reference_run=run,
                    **more)
 
 

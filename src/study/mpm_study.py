@@ -29,8 +29,11 @@ def arguments_of(words):
     parser = argparse.ArgumentParser(
         prog="mpm_study", description=__doc__,
         epilog="A study that was interrupted goes on where it stopped. See docs/studies.md.")
-    parser.add_argument("file", metavar="study.yaml", help="study, or scene with --error-bar")
-    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of results")
+    parser.add_argument("files", metavar="study.yaml", nargs="+",
+                        help="studies, one after the other, or a scene with --error-bar")
+    parser.add_argument("-o", "--output", metavar="DIR", required=True,
+                        help="folder of results; of several studies each has one in it, by its "
+                             "file's name")
     parser.add_argument("--ranks", type=int, default=1, metavar="N",
                         help="MPI ranks of runs that do not vary them (1)")
     parser.add_argument("--part", metavar="K/N",
@@ -55,6 +58,11 @@ def arguments_of(words):
         parser.error("--part belongs to a study, --error-bar to a scene. Leave one away.")
     if given.error_bar and given.quick:
         parser.error("--quick belongs to a study, --error-bar to a scene. Leave one away.")
+    if given.error_bar and len(given.files) > 1:
+        parser.error("--error-bar belongs to one scene, and several files are named. Name one.")
+    stems = [pathlib.Path(path).stem for path in given.files]
+    if len(set(stems)) < len(stems):
+        parser.error("two studies have the same name, and so one folder. Rename one.")
     if given.set and not given.error_bar:
         parser.error("--set belongs to --error-bar. Write the key set of the study file.")
     return given
@@ -79,7 +87,7 @@ def main(words):
         if given.error_bar:
             error_bar.run(given, found_program(), output)
         else:
-            study_run.run(given, found_program(), output)
+            study_run.run_studies(given, found_program(), output)
     except problems.InputError as error:
         print(error, file=sys.stderr)
         return problems.BAD_INPUT

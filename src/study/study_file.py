@@ -6,6 +6,7 @@ import measure_keys
 import resolution
 from checked_keys import known, quantity, whole_number
 from combinations import level_keys, read_combinations, settings_of
+from known_values import read_known
 from problems import InputError
 from yaml_tree import Node, read_yaml
 
@@ -19,8 +20,9 @@ KEYS = {
     "repeat": "how often every run is timed",
     "unstable_above": "energy error from which on a run counts as unstable",
     "time_limit": "after which a run is stopped",
-    "error": "what the error is of, and against what",
+    "error": "which figures are read, and what their error is against",
     "targets": "errors to reach",
+    "known": "what others found for these runs",
     "quick": "what the quick variant does otherwise",
 }
 IN_QUICK = ("set", "vary", "runs", "along", "repeat", "time_limit", "error", "targets")
@@ -43,6 +45,8 @@ class Study:
     time_limit: float  # s, or None
     measures: list
     targets: list
+    known: list = dataclasses.field(default_factory=list)  # of known_values.Known
+    known_source: str = ""  # where they stand
 
     def assignments(self, combination):
         """(key, value) pairs as --set takes them. What a run sets overrides what all share; no
@@ -52,6 +56,15 @@ class Study:
             settings["output.snapshots"] = "0"
         settings.update(combination.settings)
         return list(settings.items())
+
+
+    def known_of(self, combination):
+        """What others found for this run: values by name of the measure; later entries count."""
+        found = {}
+        for entry in self.known:
+            if all(combination.value(key) == value for key, value in entry.where):
+                found.update(entry.values)
+        return found
 
 
 def _along(keys, varied, combinations, nodes):
@@ -128,6 +141,8 @@ def read_study(path, quick=False, ranks=1):
         time_limit=quantity(keys["time_limit"], "time_limit", "time", "10 min")
         if "time_limit" in keys else None,
         measures=measures, targets=[0.01, 0.001])
+    if "known" in keys:
+        study.known, study.known_source = read_known(keys["known"], varied, combinations, measures)
     if "targets" in keys:
         node = keys["targets"]
         if not node.is_list or not node.value:

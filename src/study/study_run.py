@@ -13,10 +13,14 @@ WIDTH = 80  # columns of the terminal
 
 def check_keys(study, program):
     """A key that no scene knows is a mistake in the study file; a value that this scene does not
-    bear is a row of the table."""
-    for key, node in study.nodes.items():
-        if key == "ranks":
-            continue
+    bear is a row of the table. Keys of a run that mpm_par accepts as a whole are known; of the
+    others each is tried by itself."""
+    unknown = {key: node for key, node in study.nodes.items() if key != "ranks"}
+    for combination in study.combinations:
+        own = [key for key, _ in study.assignments(combination) if key in unknown]
+        if own and not program.check(study.scene, study.assignments(combination)):
+            unknown = {key: node for key, node in unknown.items() if key not in own}
+    for key, node in unknown.items():
         for said in program.check(study.scene, [(key, node.text)]):
             if said.startswith(f"--set {key}=") and ": unknown key" in said:
                 raise node.wrong(f"{key} is no key of the scene", said.split(": ", 1)[1])
@@ -24,7 +28,8 @@ def check_keys(study, program):
 
 def _name(study, combination):
     """Values of what varies, for the line that tells of the run."""
-    words = [value for _, value in combination.settings]
+    words = [combination.label] if combination.label else []
+    words += [value for key, value in combination.settings if key not in combination.labelled]
     if "ranks" in study.varied:
         words.append(f"{combination.ranks} ranks")
     return ", ".join(words) or "the scene as it is"
@@ -74,18 +79,37 @@ def provenance(study, program):
             "machine": machine.machine()}
 
 
-def run(given, program, output):
+def run_studies(given, program, output):
+    """All studies that the command names, each in a folder of its own if there are several. What
+    is wrong in one is said before any runs; one without a figure does not keep the next ones."""
+    studies = [study_file.read_study(path, given.quick, given.ranks) for path in given.files]
+    for study in studies:
+        check_keys(study, program)
+    if len(studies) == 1:
+        return run(studies[0], given.part, program, output)
+    without = []
+    for k, study in enumerate(studies, 1):
+        print(f"study {k}/{len(studies)}: {study.title}", flush=True)
+        try:
+            run(study, given.part, program, output / study.path.stem)
+        except NoResult as none:
+            print(none, flush=True)
+            without.append(study.path.name)
+    if without:
+        raise NoResult(f"no run gave a figure: {', '.join(without)}.")
+    return None
+
+
+def run(study, part, program, output):
     """Runs what is not done, then writes study.csv, study.json and the plots into `output`."""
-    study = study_file.read_study(given.file, given.quick, given.ranks)
-    check_keys(study, program)
     output.mkdir(parents=True, exist_ok=True)
     trees = [read_yaml(study.scene), *study.nodes.values()]
     kept = store.Store(output, store.scene_print(study.scene, trees), program.identity)
     rounds = run_all(study, program, kept, lambda line: print(line, flush=True),
-                     given.part or (1, 1))
-    if given.part:
+                     part or (1, 1))
+    if part:
         done = sum(bool(of_run) for of_run in rounds)
-        print(f"part {given.part[0]} of {given.part[1]}: {done} of {len(rounds)} runs done. Without "
+        print(f"part {part[0]} of {part[1]}: {done} of {len(rounds)} runs done. Without "
               "--part the same\ncommand writes the tables when all parts have ended.")
         return
 
@@ -96,8 +120,9 @@ def run(given, program, output):
     outcomes = [evaluation.outcome_of(study, measure, rows) for measure in study.measures]
     store.write_whole(output / "study.csv", tables.csv_text(study, rows))
     store.write_whole(output / "study.json",
-                      tables.json_text(study, rows, outcomes, provenance(study, program)))
-    paths = [path for outcome in outcomes for path in plot.draw(study, rows, outcome, output)]
+                      tables.json_text(study, rows, outcomes, provenance(study, program), output))
+    paths = [path for outcome in outcomes if outcome.measure.against is not None
+             for path in plot.draw(study, rows, outcome, output)]
     print(tables.terminal_text(study, rows, outcomes), end="")
     print("".join(f"  {path}\n" for path in paths), end="", flush=True)
     if not any(value is not None for row in rows for value in row.values.values()):

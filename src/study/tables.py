@@ -2,11 +2,13 @@
 import csv
 import io
 import json
+import os
 import re
 
 import numpy
 
 import evaluation
+from measure_keys import LEARNT
 from mpm_par.quantities import percent
 
 COLUMNS = ("wall_seconds", "wall_spread", "core_seconds", "cpu_seconds", "elapsed_seconds",
@@ -31,23 +33,33 @@ def _settings(study, row):
                                                         "ranks"]}
 
 
-def _point(row, measure):
-    return {f"value_{measure.name}": _number(row.values.get(measure.name)),
-            f"error_{measure.name}": _number(row.errors.get(measure.name))}
+def _point(study, row, measure):
+    bar = row.bars.get(measure.name)
+    found = {f"value_{measure.name}": _number(row.values.get(measure.name)),
+             f"error_{measure.name}": _number(row.errors.get(measure.name)),
+             f"bar_{measure.name}": _number(bar.uncertainty if bar else None),
+             f"known_{measure.name}": row.known.get(measure.name)}
+    if measure.against not in LEARNT:
+        del found[f"bar_{measure.name}"]
+    if measure.against is None:
+        del found[f"error_{measure.name}"]
+    if not any(measure.name in entry.values for entry in study.known):
+        del found[f"known_{measure.name}"]
+    return found
 
 
 def csv_text(study, rows):
     """A row a run. Units stand in the titles, as in history.csv."""
     text = io.StringIO()
-    names = [name for measure in study.measures for name in _point(rows[0], measure)]
+    names = [name for measure in study.measures for name in _point(study, rows[0], measure)]
     table = csv.writer(text, lineterminator="\n")
     table.writerow([*_settings(study, rows[0]),
-                    *(f"{n} [{'SI' if n.startswith('value') else '1'}]" for n in names),
+                    *(f"{n} [{'1' if n.startswith('error_') else 'SI'}]" for n in names),
                     *(f"{c.removesuffix('_mib')} [{UNITS.get(c, '1')}]" for c in COLUMNS[:-2]),
                     *COLUMNS[-2:]])
     for row in rows:
         figures = {name: value for measure in study.measures
-                   for name, value in _point(row, measure).items()}
+                   for name, value in _point(study, row, measure).items()}
         cells = [*_settings(study, row).values(), *figures.values(),
                  *(getattr(row, column) for column in COLUMNS)]
         table.writerow([f"{c:.9g}" if isinstance(c, float) else "" if c is None else c
@@ -62,10 +74,16 @@ def _reference(reference):
             "order": reference.order, "orders": reference.orders, "warnings": reference.warnings}
 
 
-def json_text(study, rows, outcomes, provenance):
+def _folder(row, output):
+    """Of the results, relative to the study's; None of a run that failed."""
+    return os.path.relpath(row.folder, output) if row.folder else None
+
+
+def json_text(study, rows, outcomes, provenance, output):
     """All of the study: rows, references, fronts, targets, provenance and machine."""
     measures = [{
         "name": outcome.measure.name, "kind": outcome.measure.kind,
+        "path": outcome.measure.path, "column": outcome.measure.column,
         "against": outcome.measure.against,
         "references": [{"series": dict(series), **(_reference(reference) or {"value": None})}
                        for series, reference in outcome.references.items()],
@@ -74,13 +92,15 @@ def json_text(study, rows, outcomes, provenance):
         "pareto": {cost: [rows.index(row) for row in front]
                    for cost, front in outcome.fronts.items()},
         "targets": outcome.targets, "warnings": outcome.warnings} for outcome in outcomes]
-    runs = [{"settings": _settings(study, row), "state": row.state,
+    runs = [{"settings": _settings(study, row), "label": row.label, "level": row.level,
+             "state": row.state, "folder": _folder(row, output),
              **{column: _number(getattr(row, column)) for column in COLUMNS},
              **{name: value for measure in study.measures
-                for name, value in _point(row, measure).items()},
+                for name, value in _point(study, row, measure).items()},
              "remarks": row.remarks} for row in rows]
-    return json.dumps({"title": study.title, "along": study.along, "runs": runs,
-                       "measures": measures, **provenance}, indent=1, allow_nan=False) + "\n"
+    return json.dumps({"title": study.title, "along": study.along, "varied": study.varied,
+                       "known_source": study.known_source, "runs": runs, "measures": measures,
+                       **provenance}, indent=1, allow_nan=False) + "\n"
 
 
 def _line(cells, widths):
@@ -127,8 +147,10 @@ def terminal_text(study, rows, outcomes):
     for outcome in outcomes:
         name = outcome.measure.name
         shown = name.replace("_", " ")
-        lines += ["", f"{study.title}: error of {shown}",
-                  _line(("settings", "value", "error", "wall s", "status"), widths)]
+        bare = outcome.measure.against is None
+        lines += ["", f"{study.title}: {shown}" if bare else f"{study.title}: error of {shown}",
+                  _line(("settings", "value", "known" if bare else "error", "wall s", "status"),
+                        widths)]
         on_front = {id(row) for row in outcome.fronts["wall_seconds"]}
         for row in rows:
             error = row.errors.get(name)
@@ -139,9 +161,12 @@ def terminal_text(study, rows, outcomes):
                 "no value" if value is None else row.state
             lines.append(_line((evaluation.describe(study, row),
                                 _shown(value) if not isinstance(value, numpy.ndarray) else "curve",
+                                _shown(row.known.get(name)) if bare else
                                 (percent(error) if error is not None else "-") + mark,
                                 _shown(row.wall_seconds), status), widths))
         lines += _reasons(study, rows, name)
+        if bare:
+            continue
         lines.append("* on the Pareto front of error and wall seconds")
         words = dict.fromkeys(
             (", ".join(str(v) for _, v in series if v), reference.words, reference.order)

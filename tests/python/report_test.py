@@ -237,6 +237,44 @@ class Report(ProgramTest):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("usage: mpm_report", run.stdout)
 
+    def test_of_studies_holds_their_figures_beside_theory_and_what_is_known(self):
+        wood = pathlib.Path(__file__).parents[2] / "inputs" / "wood"
+        study = (f"# Both directions of a wood.\nscene: {wood}/loblolly_radial.yaml\n"
+                 "set: {grid.cells: [26, 17], loading.speed: 50 m/s, loading.strain: 8 %,\n"
+                 "      output.snapshots: 2, output.history_lines: 100}\n"
+                 "vary: {loading.piston: [right, top], specimen.threshold_shift: [0, 20]}\n"
+                 "error: [{name: stress, mean: {strain: [1 %, 6 %]}},\n"
+                 "        {name: modulus, of: compression.modulus}]\n"
+                 "known: {source: A book, runs: [{stress: 100 MPa}]}\n")
+        folder = self.folder / "studies"
+        folder.mkdir()
+        files = [folder / "one.yaml", folder / "two.yaml"]
+        files[0].write_text(study)
+        files[1].write_text(study.replace("[0, 20]", "[0]"))
+        made = subprocess.run([REPORT.with_name("mpm_study"), *files, "-o", folder],
+                              capture_output=True, text=True, timeout=300)
+        self.assertEqual(made.returncode, 0, made.stderr + made.stdout)
+        text = self.page_of(folder).text
+        from mpm_par import foam, open_run, read_study
+        runs = read_study(folder / "one").record["runs"]
+        for run in runs:
+            stress, found = run["value_stress"], open_run(folder / "one" / run["folder"])
+            self.assertIn(f"{stress / 1e6:.4g} / 100 ({stress / 1e6 - 100:+.0f} %)", text)
+            theory = foam.honeycomb(found.summary["relative_density"], 10.6e9, 500e6, True, 0.33)
+            self.assertIn(f"{theory.plastic_collapse / 1e6:.4g}", text)
+        by_key = {tuple(run["settings"].values()): run["value_stress"] for run in runs}
+        change = 100 * (by_key["right", "20", "1"] / by_key["right", "0", "1"] - 1)
+        self.assertIn(f"{change:+.0f} %", text)
+        for words in ("All 6 runs ended well", "Both directions of a wood.", "Foam theory",
+                      "What the threshold is worth", "one.yaml", "A book"):
+            self.assertIn(words, text)
+        pictures = {path.name for path in (folder / "report").iterdir()}
+        self.assertLessEqual({"one_curves.svg", "two_curves.png"}, pictures)
+        self.assertTrue(any(name.startswith("two_2_plastic_work") for name in pictures), pictures)
+        refused = mpm_report(folder, "--at", "5%")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("holds studies", refused.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

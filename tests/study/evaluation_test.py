@@ -7,6 +7,7 @@ import unittest
 import numpy
 
 import evaluation
+import known_values
 import tables
 from made_up import SHAPE, evaluated
 
@@ -57,6 +58,42 @@ class Errors(unittest.TestCase):
             self.assertEqual([r for r in rows if r in outcome.fronts["wall_seconds"]], rows[:2])
 
 
+    def test_without_a_reference_there_are_none(self):
+        study, rows, outcome = evaluated(None, {"gimp": ladder(200, 400, 1)})
+        self.assertEqual(errors(rows), [None] * 4)
+        self.assertEqual((outcome.targets, outcome.warnings), ([], []))
+        titles = tables.csv_text(study, rows).splitlines()[0].split(",")
+        self.assertIn("value_modulus [SI]", titles)
+        self.assertFalse(any(title.startswith(("error_", "bar_")) for title in titles), titles)
+
+
+class Bars(unittest.TestCase):
+    def test_belong_to_the_finest_run_of_a_ladder_and_hold_its_limit(self):
+        study, rows, _ = evaluated("finest", {"gimp": ladder(200, 400, 1),
+                                              "quadratic": ladder(220, 100, 1)},
+                                   series=("gimp", "quadratic"))
+        barred = [row for row in rows if row.bars]
+        self.assertEqual(barred, [rows[3], rows[7]])
+        for row, limit in zip(barred, (200, 220)):
+            away = abs(row.values["modulus"] - limit)
+            self.assertGreaterEqual(row.bars["modulus"].uncertainty, away)
+            self.assertLessEqual(row.bars["modulus"].uncertainty, 2.5 * away)
+        table = list(csv.DictReader(io.StringIO(tables.csv_text(study, rows))))
+        self.assertEqual([bool(line["bar_modulus [SI]"]) for line in table],
+                         [False, False, False, True] * 2)
+
+
+class Known(unittest.TestCase):
+    def test_figures_stand_beside_those_found(self):
+        study, rows, outcome = evaluated(None, {"gimp": [190.0, 205.0]})
+        study.known = [known_values.Known(((SHAPE, "gimp"),), {"modulus": 200.0})]
+        for row in rows:
+            row.known = study.known_of(row.combination)
+        table = list(csv.DictReader(io.StringIO(tables.csv_text(study, rows))))
+        self.assertEqual({line["known_modulus [SI]"] for line in table}, {"200"})
+        self.assertIn("200", tables.terminal_text(study, rows, [outcome]))
+
+
 class SeveralSeries(unittest.TestCase):
     values = {"gimp": ladder(200, 400, 1), "quadratic": ladder(220, 100, 1)}
 
@@ -105,7 +142,7 @@ class Tables(unittest.TestCase):
     def test_json_names_rows_of_the_front_and_is_strict(self):
         study, rows, outcome = evaluated(200.0, {"gimp": [None, 210.0, 205.0]})
         rows[1].energy_error = float("nan")
-        found = json.loads(tables.json_text(study, rows, [outcome], {"machine": "m"}),
+        found = json.loads(tables.json_text(study, rows, [outcome], {"machine": "m"}, "results"),
                            parse_constant=self.fail)
         self.assertEqual(found["measures"][0]["pareto"]["wall_seconds"][-1], 2)
         self.assertEqual(found["machine"], "m")

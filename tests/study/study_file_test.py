@@ -3,6 +3,7 @@ import pathlib
 import tempfile
 import unittest
 
+import evaluation
 import study_file
 from problems import InputError
 
@@ -66,6 +67,17 @@ class Runs(StudyFile):
         self.assertEqual(study.combinations[0].value("numerics.cfl"), None)
         self.assertEqual(study.combinations[11].value("numerics.cfl"), "0.5")
 
+    def test_of_an_entry_with_a_label_are_called_by_it(self):
+        study = self.read(GOOD + "runs:\n  - {label: slow and soft, numerics.scheme: apic}\n"
+                                 "  - {numerics.scheme: flip}\n")
+        first, last = study.combinations[0], study.combinations[-1]
+        self.assertEqual((first.label, first.labelled), ("slow and soft", ("numerics.scheme",)))
+        self.assertEqual(first.value("numerics.scheme"), "apic")
+        self.assertEqual((last.label, last.labelled), ("", ()))
+        self.assertNotIn("label", study.varied)
+        self.assertEqual(evaluation.label_of(study, first), "slow and soft, gimp")
+        self.assertEqual(evaluation.label_of(study, last), "quadratic, flip")
+
     def test_may_be_a_list_alone(self):
         text = GOOD.replace("vary:", "runs:").replace(
             "  numerics.shape_function: [gimp, quadratic]\n", "").replace(
@@ -102,6 +114,33 @@ class Runs(StudyFile):
         self.assertEqual(len(self.read(text).combinations), 6)
 
 
+KNOWN = """\
+known:
+  source: A paper
+  runs:
+    - {modulus: 2 GPa}
+    - {where: {numerics.shape_function: gimp}, modulus: 3 GPa}
+"""
+
+
+class Known(StudyFile):
+    def test_figures_belong_to_the_runs_that_their_settings_name(self):
+        study = self.read(GOOD + KNOWN)
+        found = {run.value("numerics.shape_function"): study.known_of(run)
+                 for run in study.combinations}
+        self.assertEqual(found, {"gimp": {"modulus": 3e9}, "quadratic": {"modulus": 2e9}})
+        self.assertEqual(study.known_source, "A paper")
+
+    def test_figures_that_no_run_has_are_refused(self):
+        text = GOOD + KNOWN
+        self.refused("gimp}, modulus: 3", "cubic}, modulus: 3", 13, "where fits no run", text=text)
+        self.refused("{numerics.shape_function: gimp}, ", "{numerics.scheme: flip}, ", 13,
+                     "where has no key 'numerics.scheme'", text=text)
+        self.refused("modulus: 2 GPa", "plateau: 2 GPa", 12, "no key 'plateau'", text=text)
+        self.refused("2 GPa", "2 furlong", 12, "modulus is 2 furlong", "unknown unit", text=text)
+        self.refused("  source: A paper\n", "", 10, "has no source", text=text)
+
+
 class Wrong(StudyFile):
     def test_keys(self):
         self.refused("repeat: 3", "repetitions: 3", 7, "no key 'repetitions'", "Known:", "repeat")
@@ -122,9 +161,14 @@ class Wrong(StudyFile):
         self.refused("repeat: 3", "along: numerics.cfl", 7, "does not vary")
         self.refused("25 %", "25 %, ranks: none", 3, "ranks is none", "whole number")
 
+    def test_a_figure_without_a_reference_has_no_error(self):
+        study = self.read(GOOD.replace(", against: 12.5 MPa", ""))
+        self.assertIsNone(study.measures[0].against)
+        self.refused(", against: 12.5 MPa", ", reference: {numerics.shape_function: gimp}", 8,
+                     "does not go with no against")
+
     def test_errors_to_take(self):
         line = "{of: compression.modulus, against: 12.5 MPa}"
-        self.refused(line, "{of: compression.modulus}", 8, "against is missing")
         self.refused(line, "{against: finest}", 8, "no figure", "curve")
         self.refused(line, "{of: a, mean: {strain: [0, 1 %]}, against: finest}", 8, "of and mean")
         self.refused("12.5 MPa", "12.5 furlong", 8, "unknown unit 'furlong'", "MPa")

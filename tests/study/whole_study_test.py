@@ -64,6 +64,31 @@ class WholeStudy(StudyTest):
         self.assertEqual(len(self.table()), 12)
         self.assertLessEqual(before.items(), self.times_of_records().items())
 
+    def test_several_studies_have_a_folder_each_and_none_runs_before_all_are_understood(self):
+        one = ("scene: block.yaml\nvary: {loading.speed: [10 m/s, 20 m/s]}\n"
+               "error: {name: stress, mean: {strain: [1 %, 4 %]}}\n"
+               "known: {source: A book, runs: [{stress: 2 GPa}]}\n")
+        first, second = self.folder / "first.yaml", self.folder / "second.yaml"
+        first.write_text(one)
+        second.write_text("scene: nowhere.yaml\n" + one.split("\n", 1)[1])
+        output = self.folder / "output"
+        refused = mpm_study(first, second, "--output", output)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("second.yaml:1:", refused.stderr)
+        self.assertFalse(output.exists())
+
+        second.write_text(one)
+        said = self.good(first, second, "--output", output)
+        self.assertIn("study 2/2", said)
+        for name in ("first", "second"):
+            with open(output / name / "study.csv", newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual([float(row["known_stress [SI]"]) for row in rows], [2e9, 2e9])
+            self.assertEqual(list((output / name).glob("error_*")), [])
+        twice = mpm_study(first, first, "--output", output)
+        self.assertEqual(twice.returncode, 2)
+        self.assertIn("same name", twice.stderr)
+
     def test_tables_plots_and_terminal(self):
         said = self.good(self.write(), "--output", self.folder / "output")
         rows = self.table()

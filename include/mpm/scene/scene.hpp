@@ -81,6 +81,7 @@ struct Micrograph {
   ThresholdRule threshold_rule = ThresholdRule::value;
   double threshold = 150;              ///< gray level of 0..255
   double target_relative_density = 0;  ///< with ThresholdRule::target_relative_density
+  double threshold_shift = 0;          ///< gray levels added to what any of the rules gives
   Sampling sampling = Sampling::match;
   int remove_specks = 0;            ///< wall pieces of fewer locations than this are void
   bool remove_unconnected = false;  ///< keep only pieces linked to the largest

@@ -13,7 +13,8 @@ import importlib
 _PLACES = {"ResultsError": "problems", "History": "history", "read_history": "history",
            "Run": "run", "open_run": "run", "Snapshot": "snapshots", "read_snapshot": "snapshots",
            "read_series": "snapshots", "Window": "windows", "work_in_windows": "windows",
-           "Bar": "study", "Study": "study", "read_study": "study", "read_error_bar": "study"}
+           "Bar": "study", "Study": "study", "read_study": "study", "read_error_bar": "study",
+           "study_folders": "study"}
 __all__ = sorted(_PLACES)
 
 

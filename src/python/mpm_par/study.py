@@ -52,6 +52,15 @@ def _column(texts):
         return numpy.array(texts)
 
 
+def study_folders(folder):
+    """Of the studies that mpm_study has written into a folder: itself, or one for each of several
+    studies in it, by name; empty if there is none."""
+    folder = pathlib.Path(folder)
+    if (folder / "study.json").exists():
+        return [folder]
+    return sorted(path.parent for path in folder.glob("*/study.json"))
+
+
 def read_study(folder):
     """The Study in a folder that mpm_study has written. Raises ResultsError if it is missing or
     half-written."""

@@ -95,6 +95,27 @@ TEST_F(SampledPicture, ADensityAimedAtRulesAndThePicturesIsToldAtItsThreshold)
   EXPECT_EQ(specimen.picture()->density, above / (160 * 120));
 }
 
+TEST_F(SampledPicture, AShiftedThresholdIsThatOfItsRulePlusTheShift)
+{
+  const scene::Micrograph plain = micrograph();
+  for (const auto rule : {scene::ThresholdRule::value, scene::ThresholdRule::otsu,
+                          scene::ThresholdRule::target_relative_density}) {
+    micrograph() = plain;
+    micrograph().threshold_rule = rule;
+    micrograph().target_relative_density = 0.25;
+    const double found = with_cells(97, 71).picture()->threshold;
+    micrograph().threshold_shift = -10;
+    const Specimen<2> shifted = with_cells(97, 71);
+    EXPECT_EQ(shifted.picture()->threshold, found - 10);
+    micrograph() = plain;
+    micrograph().sampling = rule == scene::ThresholdRule::target_relative_density
+                                ? scene::Sampling::threshold
+                                : scene::Sampling::match;
+    micrograph().threshold = found - 10;
+    EXPECT_EQ(with_cells(97, 71).particles_of_material(), shifted.particles_of_material());
+  }
+}
+
 TEST_F(SampledPicture, OfWallOnlyIsFull)
 {
   micrograph().threshold = 10;

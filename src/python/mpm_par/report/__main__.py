@@ -1,5 +1,5 @@
-"""Leaves a report of a run in its folder: report.html, one page with all pictures in it, and the
-pictures as files in report/."""
+"""Leaves a report of a run, or of studies, in its folder: report.html, one page with all pictures
+in it, and the pictures as files in report/."""
 import argparse
 import importlib.util
 import re
@@ -21,7 +21,8 @@ class UsageError(Exception):
 def arguments_of(words):
     parser = argparse.ArgumentParser(prog="mpm_report", description=__doc__,
                                      epilog="See docs/reports.md.")
-    parser.add_argument("folder", help="folder of results of a run, such as results/my_wood")
+    parser.add_argument("folder", help="folder of results of a run, such as results/my_wood, or of "
+                                       "mpm_study")
     parser.add_argument("--at", nargs="+", default=[], metavar="VALUE",
                         help="strains (5%%) or times (12us) at which the structure is shown; the "
                              "nearest snapshots are taken (six evenly)")
@@ -124,7 +125,6 @@ def missing_packages():
 def make(given):
     from mpm_par.run import open_run
 
-    begin = time.monotonic()
     check_limits(given)
     asked = moments(given), windows(given)
     place = section(given)
@@ -134,8 +134,17 @@ def make(given):
     html, drawings = contents(run, Request(
         *asked, bars, given.work_limit, given.stress_limit, place, int(1e6 * given.film_size),
         given.remark))
-    path = write(run, html, drawings)
-    print(f"report in {path} ({time.monotonic() - begin:.1f} s)")
+    return write(run.folder, html, drawings)
+
+
+def make_of_studies(given):
+    from mpm_par.report.contents import write
+    from mpm_par.report.studies import contents
+
+    if given.at or given.window or given.error_bar or given.section:
+        raise UsageError(f"{given.folder} holds studies: options of the report of a run do not "
+                         "apply. Leave them away, or name the folder of one run.")
+    return write(given.folder, *contents(given.folder))
 
 
 def main(words):
@@ -144,8 +153,11 @@ def main(words):
     if missing:
         print(f"no report: install {' '.join(missing)} for {sys.executable}.", file=sys.stderr)
         return FILE_FAILURE
+    begin = time.monotonic()
     try:
-        make(given)
+        from mpm_par.study import study_folders
+        path = (make_of_studies if study_folders(given.folder) else make)(given)
+        print(f"report in {path} ({time.monotonic() - begin:.1f} s)")
     except (ResultsError, UsageError) as error:
         print(f"mpm_report: {error}", file=sys.stderr)
         return BAD_INPUT

@@ -165,10 +165,11 @@ def _write(path, content):
     os.replace(part, path)
 
 
-def write(run, html, drawings):
-    """report.html and the files of the folder report, in place of those of an earlier report;
-    returns the path of the page."""
-    folder = pathlib.Path(run.folder) / "report"
+def write(results, html, drawings):
+    """report.html and the files of the folder report in a folder of results, in place of those of
+    an earlier report; returns the path of the page."""
+    results = pathlib.Path(results)
+    folder = results / "report"
     folder.mkdir(exist_ok=True)
     names = {f"{drawing.stem}.{ending}": content for drawing in drawings
              for ending, content in drawing.files.items()}
@@ -177,5 +178,5 @@ def write(run, html, drawings):
             path.unlink()
     for name, content in names.items():
         _write(folder / name, content)
-    _write(run.folder / "report.html", html.encode())
-    return run.folder / "report.html"
+    _write(results / "report.html", html.encode())
+    return results / "report.html"

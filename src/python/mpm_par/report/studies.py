@@ -1,0 +1,165 @@
+"""A page of studies: curves, figures and what others found, theory, structures, and their cost."""
+import pathlib
+from html import escape
+
+import numpy
+
+from mpm_par import pictures
+from mpm_par.problems import ResultsError
+from mpm_par.report import charts, drawing, page, structure, study_facts, theory
+from mpm_par.run import open_run
+from mpm_par.study import read_study, study_folders
+
+
+def _opened(study, folder):
+    """[(run of study.json, mpm_par.Run)] of those that ended well and whose results are there."""
+    found = []
+    for entry in study.record["runs"]:
+        if entry["state"] != study_facts.OK or not entry["folder"]:
+            continue
+        try:
+            found.append((entry, open_run(folder / entry["folder"])))
+        except ResultsError:
+            continue  # results of runs may be removed once the tables are written
+    return found
+
+
+def _curves(stem, study, runs):
+    """All curves in one picture, up to three times the largest stress at which one becomes dense."""
+    runs = [(entry, run) for entry, run in runs if run.axis is not None]
+    if not runs:
+        return None
+    dense = [run.properties["densification"]["stress"] for _, run in runs
+             if run.properties.get("densification")]
+    highest = max(numpy.nanmax(run.history["stress"]) for _, run in runs)
+    top = min(1.05 * highest, 3 * max(dense)) if dense else 1.05 * highest
+
+    def draw(axes):
+        for k, (entry, run) in enumerate(runs):
+            axes.plot(100 * run.history["strain"], run.history["stress"] / 1e6, lw=1.2,
+                      color=charts.COLOURS[k % len(charts.COLOURS)],
+                      ls=("-", "--", ":", "-.")[k // len(charts.COLOURS) % 4],
+                      label=study_facts.name_of(study, entry))
+        axes.set(xlabel="compressive strain (%)", ylabel="stress (MPa)", xlim=(0, None),
+                 ylim=(0, top / 1e6))
+        axes.grid(color="#e6e8eb", lw=0.7)
+        axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.46, -0.13),
+                    ncols=1 + (len(runs) > 4), fontsize=7.5)
+
+    rows = -(-len(runs) // (1 + (len(runs) > 4)))
+    return drawing.plot(f"{stem}_curves", draw,
+                        f"Stress over strain of {len(runs)} runs.",
+                        "Mean of the stress at the piston and at the fixed edge over the first "
+                        "cross-section.", height=3.8 + 0.17 * rows)
+
+
+def _ladders(stem, study):
+    """Every figure over what refines, relative to its finest value; None of a study without a
+    ladder of three."""
+    record = study.record
+    if not record["along"]:
+        return None
+    runs = [run for run in record["runs"] if run["state"] == study_facts.OK]
+    series = dict.fromkeys(run["label"] for run in runs)
+    levels = list(dict.fromkeys(run["level"] for run in runs))
+    measures = [m for m in study_facts.numbers(study) if m["against"] in ("finest", "richardson")]
+    if len(levels) < 3 or not measures:
+        return None
+
+    def draw(axes):
+        for k, measure in enumerate(measures):
+            for style, one in zip(("o-", "s--", "^:", "d-.") * 4, series):
+                own = [run for run in runs if run["label"] == one
+                       and run[f"value_{measure['name']}"] is not None]
+                if not own:
+                    continue
+                last = own[-1][f"value_{measure['name']}"]
+                name = measure["name"].replace("_", " ")
+                axes.plot([levels.index(run["level"]) for run in own],
+                          [100 * (run[f"value_{measure['name']}"] / last - 1) for run in own],
+                          style, ms=4, lw=1.1, color=charts.COLOURS[k % len(charts.COLOURS)],
+                          label=name + (f", {one}" if one else ""))
+        axes.set_xticks(range(len(levels)), levels)
+        axes.axhline(0, color=pictures.INK, lw=0.8)
+        axes.set(xlabel=record["along"], ylabel="difference from the last level (%)")
+        axes.grid(color="#e6e8eb", lw=0.7)
+        axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.46, -0.15), ncols=2,
+                    fontsize=7)
+
+    entries = -(-len(measures) * len(series) // 2)
+    return drawing.plot(f"{stem}_levels", draw,
+                        f"Figures over {record['along']}, relative to those of the last level.",
+                        f"How the figures change with {record['along']}.",
+                        height=3.6 + 0.15 * entries)
+
+
+def _structures(stem, study, runs, made):
+    """Frames of the runs that left snapshots, coloured by the first of plastic work and stress that
+    a run has."""
+    html = ""
+    for number, (entry, run) in enumerate(runs, 1):
+        if len(run.snapshots) < 2 or not study_facts.is_finest(study, entry):
+            continue
+        shown = structure.colourings(run, run.snapshots[-1])[0]
+        if not shown:
+            continue
+        frames = structure.draw_frames(run, structure.Stage(run), structure.choose(run, []),
+                                       shown[0])
+        for frame in frames:
+            frame.stem = f"{stem}_{number}_{frame.stem}"
+        made += frames
+        html += (f"<h3>{escape(study_facts.name_of(study, entry))}, coloured by "
+                 f"{escape(shown[0].name)}</h3>" + page.gallery(frames))
+    return html
+
+
+def _table(caption, titles_and_rows):
+    titles, rows = titles_and_rows
+    return page.table(caption, titles, rows) if rows else ""
+
+
+def _section(folder, study, made):
+    stem = folder.name
+    runs = _opened(study, folder)
+    drawn = [picture for picture in (_curves(stem, study, runs), _ladders(stem, study)) if picture]
+    made += drawn
+    source = study.record["known_source"]
+    return (page.paragraphs([study_facts.opening(study)])
+            + page.gallery(drawn)
+            + _table("Figures of the runs; ± is the estimated numerical error, or that of the "
+                     "speed, of the last of a ladder", study_facts.figures(study))
+            + (page.listed(found) if (found := study_facts.limits(study)) else "")
+            + _table("What the threshold is worth", study_facts.shifts(study))
+            + _table(f"Found here / {source} (difference)", study_facts.beside_known(study))
+            + _table("Foam theory: hexagons of the same relative density whose walls bend, with "
+                     "free sides (Gibson and Ashby)", theory.honeycomb_rows(study, runs))
+            + _table("Two layers: moduli out of those in series and in parallel",
+                     theory.layer_rows(study, runs))
+            + _structures(stem, study, runs, made))
+
+
+def contents(folder):
+    """(HTML, Drawings) of the studies in a folder."""
+    folders = study_folders(folder)
+    studies = [read_study(one) for one in folders]
+    made, sections = [], []
+    for one, study in zip(folders, studies):
+        sections.append((one.name, study.title, _section(one, study, made)))
+    runs, elapsed, core = study_facts.cost(studies)
+    failed = sum(run["state"] != study_facts.OK for s in studies for run in s.record["runs"])
+    record = studies[0].record
+    rows = [("runs", str(runs)), ("run time, one after the other", study_facts.clock(elapsed)),
+            ("core time", study_facts.clock(core)),
+            *((name.replace("_", " "), str(value)) for name, value in record["machine"].items()),
+            *record["mpm_par"].items()]
+    sections.append(("cost", "What it took", page.table("Runs, machine and program", ("", ""),
+                                                        rows)))
+    sections += [(f"file-{one.name}", f"Study file: {study.record['study']}",
+                  page.folded(study.record["study"], study.record["study_text"]))
+                 for one, study in zip(folders, studies)]
+    ending = ("good", f"All {runs} runs ended well.") if not failed else \
+        ("short", f"{failed} of {runs} runs did not end well: their rows say why.")
+    heading = studies[0].title if len(studies) == 1 else f"{len(studies)} studies"
+    return page.page(heading, pathlib.Path(folder).resolve().name, ending, sections,
+                     ["Made by mpm_report. The pictures stand as files in the folder report beside "
+                      "this page."]), made

@@ -1,0 +1,165 @@
+"""What a study says in words and tables: texts only, nothing is drawn and no run is opened here.
+
+A study is a mpm_par.study.Study. Its runs are dicts of study.json; figures are in SI units there."""
+import numpy
+
+OK = "ok"
+
+
+def shown(measure, value):
+    """A figure as a text without its unit."""
+    return four_digits(value * _unit(measure)[1])
+
+
+def four_digits(number):
+    """Or all before the point."""
+    return f"{number:.4g}" if abs(number) < 1e4 else f"{number:,.0f}"
+
+
+def _unit(measure):
+    """(unit, factor from SI) of a measure of study.json."""
+    ending = (measure["path"] or measure["column"]).split(".")[-1]
+    if ending.startswith(("stress", "modulus")):
+        return "MPa", 1e-6
+    return ("%", 100) if ending == "strain" else ("", 1)
+
+
+def title(measure):
+    """Such as `buckling stress (MPa)`."""
+    unit = _unit(measure)[0]
+    return measure["name"].replace("_", " ") + (f" ({unit})" if unit else "")
+
+
+def numbers(study):
+    """Measures that are a number a run."""
+    return [measure for measure in study.record["measures"] if measure["kind"] != "curve"]
+
+
+def name_of(study, run):
+    """What sets a run apart: `500 MPa, piston top, cells 75x49`."""
+    words = [run["label"]] if run["label"] else []
+    if run["level"]:
+        words.append(f"{study.record['along'].split('.')[-1]} {run['level']}")
+    return ", ".join(words) or study.title
+
+
+def difference(value, known):
+    """In percent of what is known, with its sign; empty where either is missing."""
+    if value is None or not known:
+        return ""
+    return f"{100 * (value / known - 1):+.0f} %"
+
+
+def _figure(measure, run):
+    value, bar = run[f"value_{measure['name']}"], run.get(f"bar_{measure['name']}")
+    if value is None:
+        return "-"
+    words = shown(measure, value)
+    return words if bar is None else f"{words} ± {bar * _unit(measure)[1]:.2g}"
+
+
+def figures(study):
+    """(titles, rows) of all runs; ± is the estimated error of the finest run of a ladder."""
+    measures = numbers(study)
+    titles = ["run", *map(title, measures), "energy error", "wall time"]
+    rows = []
+    for run in study.record["runs"]:
+        ended = run["state"] == OK
+        rows.append([name_of(study, run), *(_figure(measure, run) for measure in measures),
+                     f"{100 * run['energy_error']:.2g} %" if run["energy_error"] is not None
+                     else "-", clock(run["wall_seconds"]) if ended else run["status"]])
+    return titles, rows
+
+
+def beside_known(study):
+    """(titles, rows): found, known and the difference; no rows where nothing is known."""
+    measures = [measure for measure in numbers(study)
+                if any(run.get(f"known_{measure['name']}") for run in study.record["runs"])]
+    titles = ["run", *map(title, measures)]
+    rows = []
+    for run in study.record["runs"]:
+        cells = []
+        for measure in measures:
+            value, known = (run.get(f"{what}_{measure['name']}") for what in ("value", "known"))
+            if not known:
+                cells.append("-" if value is None else f"{shown(measure, value)} / -")
+                continue
+            found = "-" if value is None else shown(measure, value)
+            apart = difference(value, known)
+            cells.append(f"{found} / {shown(measure, known)}" + (f" ({apart})" if apart else ""))
+        if any(run.get(f"known_{measure['name']}") for measure in measures):
+            rows.append([name_of(study, run), *cells])
+    return titles, rows
+
+
+def is_finest(study, run):
+    """Whether no run with the same settings but the level has more particles."""
+    return all(other["particles"] <= run["particles"] for other in study.record["runs"]
+               if other["state"] == OK and other["label"] == run["label"])
+
+
+def shifts(study):
+    """(titles, rows): what figures owe to the threshold: their change with specimen.threshold_shift,
+    of the finest runs with otherwise the same settings."""
+    key = "specimen.threshold_shift"
+    apart = {"output.snapshots", key}
+    measures = numbers(study)
+    runs = [run for run in study.record["runs"]
+            if run["state"] == OK and run["settings"].get(key) and is_finest(study, run)]
+
+    def rest(run):
+        return {name: value for name, value in run["settings"].items() if name not in apart}
+
+    rows = []
+    for run in runs:
+        base = next((one for one in runs if float(one["settings"][key]) == 0
+                     and rest(one) == rest(run)), None)
+        if base in (None, run):
+            continue
+        rows.append([name_of(study, run),
+                     *(difference(run[f"value_{m['name']}"], base[f"value_{m['name']}"]) or "-"
+                       for m in measures)])
+    return ["run, against the same as it is", *(m["name"].replace("_", " ") for m in measures)], \
+        rows
+
+
+def limits(study):
+    """Sentences: what each figure tends to along the key that refines, where it does."""
+    found = []
+    for measure in numbers(study):
+        for reference in measure["references"]:
+            if measure["against"] != "richardson" or reference["value"] is None:
+                continue
+            series = ", ".join(str(value) for value in reference["series"].values() if value)
+            order = "" if not reference.get("order") else f", order {reference['order']:.2g}"
+            carried = reference["words"].startswith("Richardson")
+            how = f"carried to zero{order}" if carried else "no extrapolation: the last run"
+            found.append(f"{title(measure)}{' of ' + series if series else ''}: "
+                         f"{shown(measure, reference['value'])} ({how}).")
+    return found
+
+
+def opening(study):
+    """The comment that the study file begins with."""
+    lines = []
+    for line in study.record["study_text"].splitlines():
+        if not line.startswith("#"):
+            break
+        lines.append(line.lstrip("# ").strip())
+    return " ".join(lines)
+
+
+def clock(seconds):
+    if seconds is None:
+        return "-"
+    if seconds < 120:
+        return f"{seconds:.3g} s"
+    return f"{seconds / 60:.3g} min" if seconds < 7200 else f"{seconds / 3600:.3g} h"
+
+
+def cost(studies):
+    """(runs, wall seconds of the whole programs, core seconds) of all studies."""
+    runs = [run for study in studies for run in study.record["runs"]]
+    elapsed = [run["elapsed_seconds"] or 0.0 for run in runs]
+    ranks = [float(run["settings"].get("ranks") or 1) for run in runs]
+    return len(runs), sum(elapsed), float(numpy.dot(elapsed, ranks))

@@ -1,0 +1,78 @@
+"""Closed formulae beside the runs of a study: cells of hexagons, and layers."""
+import dataclasses
+
+from mpm_par import foam
+from mpm_par.report import study_facts
+
+
+@dataclasses.dataclass(frozen=True)
+class Wall:
+    """Of the cell walls of a run, SI units; `yield_stress` is None of an elastic one."""
+    modulus: float
+    poisson_ratio: float
+    yield_stress: float
+    plane_strain: bool
+
+
+def wall_of(run):
+    """The Wall of a mpm_par.Run in the plane with one material that has a Young's modulus; else
+    None."""
+    modulus = run.quantity("material.youngs_modulus")
+    if modulus is None or run.is_in_space:
+        return None
+    return Wall(modulus, run.quantity("material.poisson_ratio") or 0.0,
+                run.quantity("material.yield_stress"),
+                run.scene["numerics"].get("plane") != "stress")
+
+
+def honeycomb_rows(study, runs):
+    """(titles, rows) of foam theory beside each figure. `runs`: (run of study.json, mpm_par.Run)."""
+    rows = []
+    for entry, run in runs:
+        wall, density = wall_of(run), (run.summary or {}).get("relative_density")
+        if wall is None or not density or density >= 1 or run.axis is None:
+            continue
+        theory = foam.honeycomb(density, wall.modulus, wall.yield_stress, wall.plane_strain,
+                                wall.poisson_ratio)
+        modulus, buckling = run.properties.get("modulus"), run.properties.get("buckling") or {}
+        rows.append([study_facts.name_of(study, entry), f"{density:.3f}",
+                     f"{theory.thickness_ratio:.3f}",
+                     _mega(theory.modulus), _mega(modulus), _mega(theory.elastic_buckling),
+                     _mega(theory.plastic_collapse), _mega(buckling.get("stress"))])
+    return ["run", "relative density", "t/l", "modulus, theory (MPa)", "simulation",
+            "elastic buckling, theory (MPa)", "plastic collapse, theory (MPa)",
+            "onset, simulation"], rows
+
+
+def _mega(value):
+    return "-" if value is None else study_facts.four_digits(value / 1e6)
+
+
+def layer_rows(study, runs):
+    """(titles, rows): moduli of two layers across x, early- and latewood, out of those along x and
+    along y of the same specimen; of windows that part the specimen along x in two."""
+    rows = []
+    for entry, run in runs:
+        if run.axis != 0 or not run.properties.get("modulus"):
+            continue
+        windows = [window for window in run.scene.get("specimen", {}).get("windows") or []
+                   if window.get("x", [0, 1]) != [0, 1] and window.get("y", [0, 1]) == [0, 1]]
+        partner = _partner(entry, run, runs)
+        if len(windows) != 2 or partner is None:
+            continue
+        share = float(windows[0]["x"][1]) - float(windows[0]["x"][0])
+        found = foam.layer_moduli(run.properties["modulus"], partner.properties["modulus"], share)
+        rows.append([study_facts.name_of(study, entry), f"{share:.3f}",
+                     _mega(run.properties["modulus"]), _mega(partner.properties["modulus"]),
+                     *(map(_mega, found) if found else ("no two such layers", "-"))])
+    return ["run", "share of the first window", "modulus across (MPa)", "along (MPa)",
+            "softer layer (MPa)", "stiffer layer (MPa)"], rows
+
+
+def _partner(entry, run, runs):
+    """The run with all the same settings but the piston, which comes along y."""
+    def rest(one):
+        return {key: value for key, value in one["settings"].items() if key != "loading.piston"}
+
+    return next((other for its, other in runs if other.axis == 1 and rest(its) == rest(entry)
+                 and other.properties.get("modulus")), None)

@@ -1,0 +1,48 @@
+"""The key `known` of a study file: figures that others found for its runs, to stand beside them."""
+import dataclasses
+
+from checked_keys import known
+from mpm_par.quantities import to_si
+
+KEYS = ("source", "runs")
+
+
+@dataclasses.dataclass(frozen=True)
+class Known:
+    """Of all runs with these settings."""
+    where: tuple  # pairs of a key that varies, or label, and its value as text
+    values: dict  # by name of the measure, SI units
+
+
+def _value(node, name):
+    try:
+        if node.is_list or node.is_map:
+            raise ValueError("is no single value")
+        return to_si(node.value)[1]
+    except ValueError as error:
+        raise node.wrong(f"{name} is {node.text} ({error})", "Write e.g. 2740 MPa.") from None
+
+
+def _entry(node, varied, combinations, names):
+    keys = known(node, ("where", *names), "an entry of known.runs")
+    where = ()
+    if "where" in keys:
+        settings = known(keys["where"], ("label", *varied), "where")
+        where = tuple((key, value.text) for key, value in settings.items())
+        if not any(all(run.value(key) == text for key, text in where) for run in combinations):
+            raise keys["where"].wrong("where fits no run", "Write its values as in vary or runs.")
+    return Known(where, {name: _value(keys[name], name) for name in keys if name != "where"})
+
+
+def read_known(node, varied, combinations, measures):
+    """(entries, source)."""
+    keys = known(node, KEYS, "known")
+    for key in KEYS:
+        if key not in keys:
+            raise node.wrong(f"known has no {key}", "Give it source: (a text) and runs: (a list).")
+    if not keys["runs"].is_list:
+        raise keys["runs"].wrong("known.runs is no list",
+                                 "Write e.g. - {where: {loading.piston: top}, modulus: 3252 MPa}.")
+    names = [measure.name for measure in measures if measure.kind != "curve"]
+    return [_entry(entry, varied, combinations, names) for entry in keys["runs"].value], \
+        keys["source"].text
