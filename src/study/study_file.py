@@ -47,6 +47,7 @@ class Study:
     targets: list
     known: list = dataclasses.field(default_factory=list)  # of known_values.Known
     known_source: str = ""  # where they stand
+    quick: bool = False  # the quick variant of the file
 
     def assignments(self, combination):
         """(key, value) pairs as --set takes them. What a run sets overrides what all share; no
@@ -140,7 +141,7 @@ def read_study(path, quick=False, ranks=1):
         if "unstable_above" in keys else 0.05,
         time_limit=quantity(keys["time_limit"], "time_limit", "time", "10 min")
         if "time_limit" in keys else None,
-        measures=measures, targets=[0.01, 0.001])
+        measures=measures, targets=[0.01, 0.001], quick=quick)
     if "known" in keys:
         study.known, study.known_source = read_known(keys["known"], varied, combinations, measures)
     if "targets" in keys:

@@ -98,9 +98,9 @@ def json_text(study, rows, outcomes, provenance, output):
              **{name: value for measure in study.measures
                 for name, value in _point(study, row, measure).items()},
              "remarks": row.remarks} for row in rows]
-    return json.dumps({"title": study.title, "along": study.along, "varied": study.varied,
-                       "known_source": study.known_source, "runs": runs, "measures": measures,
-                       **provenance}, indent=1, allow_nan=False) + "\n"
+    return json.dumps({"title": study.title, "quick": study.quick, "along": study.along,
+                       "varied": study.varied, "known_source": study.known_source, "runs": runs,
+                       "measures": measures, **provenance}, indent=1, allow_nan=False) + "\n"
 
 
 def _line(cells, widths):

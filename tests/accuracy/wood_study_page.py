@@ -1,0 +1,82 @@
+"""Writes docs/wood_study.md from the files in docs/wood_study.
+
+    wood_study_page.py RESULTS [RESULTS ...]
+                                  first takes tables and pictures out of folders of results of
+                                  mpm_study inputs/studies/wood_*.yaml, which mpm_report has drawn;
+                                  a later folder takes the place of an earlier one, study by study
+    wood_study_page.py            writes the page anew
+    wood_study_page.py --check    only says whether the page is the one that would be written
+"""
+import shutil
+import sys
+from pathlib import Path
+
+import runs  # noqa: F401  (which makes the project's modules known)
+from words import filled_in, finished
+from written_page import table, write_or_check
+
+from mpm_par.report import study_facts
+from mpm_par.study import read_study, study_folders
+
+PAGE = runs.PROJECT / "docs" / "wood_study.md"
+FOLDER = runs.PROJECT / "docs" / "wood_study"
+TEXT = Path(__file__).with_name("wood_study_page.md")
+KEPT = ("study.csv", "study.json")
+
+
+def take(results):
+    """Tables and pictures of finished studies."""
+    for folder in study_folders(results):
+        place = FOLDER / folder.name
+        place.mkdir(parents=True, exist_ok=True)
+        for name in KEPT:
+            shutil.copyfile(folder / name, place / name)
+        for picture in (Path(results) / "report").glob(f"{folder.name}_curves.png"):
+            shutil.copyfile(picture, FOLDER / picture.name)
+        frames = sorted((Path(results) / "report").glob(f"{folder.name}_*plastic_work_*.png"))
+        for picture in frames:
+            shutil.copyfile(picture, place / picture.name)
+
+
+def took():
+    heads = ["study", "runs", "variant", "run time, one after the other"]
+    lines = []
+    for folder in study_folders(FOLDER):
+        study = read_study(folder)
+        count, elapsed, _ = study_facts.cost([study])
+        lines.append([study.title, str(count), "quick" if study.record["quick"] else "full",
+                      study_facts.clock(elapsed)])
+    total = study_facts.cost([read_study(folder) for folder in study_folders(FOLDER)])
+    lines.append(["all", str(total[0]), "", study_facts.clock(total[1])])
+    return table(heads, lines)
+
+
+def values():
+    """What stands in braces in wood_study_page.md."""
+    found = {"took": took()}
+    for folder in study_folders(FOLDER):
+        study = read_study(folder)
+        found[f"{folder.name}_figures"] = table(*study_facts.figures(study))
+        known = study_facts.beside_known(study)
+        if known[1]:
+            found[f"{folder.name}_known"] = table(*known)
+        limits = study_facts.limits(study)
+        if limits:
+            found[f"{folder.name}_limits"] = "\n".join(f"- {line}" for line in limits)
+        found["machine"] = (f"{study.record['machine']['cores']} cores of an "
+                            f"{study.record['machine']['processor']} processor")
+    return found
+
+
+def written():
+    return finished(TEXT, filled_in(TEXT, values()))
+
+
+def main():
+    for results in [word for word in sys.argv[1:] if word != "--check"]:
+        take(results)
+    write_or_check(PAGE, written())
+
+
+if __name__ == "__main__":
+    main()
