@@ -1,4 +1,4 @@
-"""The key `error` of a study file: which figures are read, and against what their error is taken."""
+"""The key `error` of a study file: which figures are read, and what their error is against."""
 import dataclasses
 
 import resolution

@@ -15,7 +15,7 @@ import runs  # noqa: F401  (which makes the project's modules known)
 from words import filled_in, finished
 from written_page import table, write_or_check
 
-from mpm_par.report import study_facts
+from mpm_par.report import facts, study_facts
 from mpm_par.study import read_study, study_folders
 
 PAGE = runs.PROJECT / "docs" / "wood_study.md"
@@ -45,9 +45,9 @@ def took():
         study = read_study(folder)
         count, elapsed, _ = study_facts.cost([study])
         lines.append([study.title, str(count), "quick" if study.record["quick"] else "full",
-                      study_facts.clock(elapsed)])
+                      facts.clock(elapsed)])
     total = study_facts.cost([read_study(folder) for folder in study_folders(FOLDER)])
-    lines.append(["all", str(total[0]), "", study_facts.clock(total[1])])
+    lines.append(["all", str(total[0]), "", facts.clock(total[1])])
     return table(heads, lines)
 
 

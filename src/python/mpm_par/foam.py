@@ -1,8 +1,8 @@
 """What is known in closed form of cellular solids: honeycombs of regular hexagons, and composites
 of two layers.
 
-Gibson, Ashby, Schajer and Robertson 1982, Proc. R. Soc. A 382:25; the thickness ratio at any density
-from Nairn 2006, Wood Fiber Sci. 38(4):576, eq. 8. Walls bend, and the lateral sides are free: at
+Gibson, Ashby, Schajer and Robertson 1982, Proc. R. Soc. A 382:25; the thickness ratio at any
+density from Nairn 2006, Wood Fiber Sci. 38(4):576, eq. 8. Walls bend, and the lateral sides are free: at
 relative densities above some 0.3 the formulae are beyond what they were derived for.
 """
 import dataclasses

@@ -40,7 +40,10 @@ def _time(seconds):
     return f"{seconds / factor:.4g} {unit}"
 
 
-def _clock(seconds):
+def clock(seconds):
+    """A duration for people; `-` of none."""
+    if seconds is None:
+        return "-"
     if seconds < 120:
         return f"{seconds:.3g} s"
     return f"{seconds / 60:.3g} min" if seconds < 7200 else f"{seconds / 3600:.3g} h"
@@ -110,8 +113,8 @@ def run_facts(run):
              ("relative density", f"{100 * summary['relative_density']:.3g} %"),
              ("steps", f"{_count(summary['steps'])}, the first of {_time(summary['time_step'])}"),
              ("time that passed in the specimen", _time(summary["end_time"])),
-             ("run time", f"{_clock(summary['wall_seconds'])}, output "
-                          f"{_clock(summary['output_seconds'])} of it"),
+             ("run time", f"{clock(summary['wall_seconds'])}, output "
+                          f"{clock(summary['output_seconds'])} of it"),
              ("per particle and step", f"{summary['ns_per_particle_step']:.3g} ns"),
              ("memory of the fullest rank", _bytes(summary["largest_rank_bytes"])),
              ("energy error", f"{100 * summary['energy_error']:.2g} %, at most "
@@ -136,7 +139,7 @@ def cooperation(run):
              f"{summary['imbalance']:.3f} at the end, {summary['mean_imbalance']:.3f} on average"),
             ("the same of the time of work", f"{summary['mean_work_imbalance']:.3f} on average"),
             ("waiting for messages, of the rank that waits most",
-             _clock(summary["waiting_seconds"])),
+             clock(summary["waiting_seconds"])),
             ("messages a step, of the rank that sends most",
              f"{summary['messages_per_step']:.3g}, {_bytes(summary['bytes_per_step'])}"),
             ("borders moved", _count(summary["repartitions"])),

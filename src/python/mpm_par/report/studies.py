@@ -6,7 +6,7 @@ import numpy
 
 from mpm_par import pictures
 from mpm_par.problems import ResultsError
-from mpm_par.report import charts, drawing, page, structure, study_facts, theory
+from mpm_par.report import charts, drawing, facts, page, structure, study_facts, theory
 from mpm_par.run import open_run
 from mpm_par.study import read_study, study_folders
 
@@ -25,7 +25,7 @@ def _opened(study, folder):
 
 
 def _curves(stem, study, runs):
-    """All curves in one picture, up to three times the largest stress at which one becomes dense."""
+    """All curves in one picture, up to three times the largest stress of densification."""
     runs = [(entry, run) for entry, run in runs if run.axis is not None]
     if not runs:
         return None
@@ -142,14 +142,18 @@ def contents(folder):
     """(HTML, Drawings) of the studies in a folder."""
     folders = study_folders(folder)
     studies = [read_study(one) for one in folders]
+    for one, study in zip(folders, studies):
+        if "quick" not in study.record:
+            raise ResultsError(f"{one}: was written by an earlier mpm_study. Start it again: it "
+                               "goes on from what is done.")
     made, sections = [], []
     for one, study in zip(folders, studies):
         sections.append((one.name, study.title, _section(one, study, made)))
     runs, elapsed, core = study_facts.cost(studies)
     failed = sum(run["state"] != study_facts.OK for s in studies for run in s.record["runs"])
     record = studies[0].record
-    rows = [("runs", str(runs)), ("run time, one after the other", study_facts.clock(elapsed)),
-            ("core time", study_facts.clock(core)),
+    rows = [("runs", str(runs)), ("run time, one after the other", facts.clock(elapsed)),
+            ("core time", facts.clock(core)),
             *((name.replace("_", " "), str(value)) for name, value in record["machine"].items()),
             *record["mpm_par"].items()]
     sections.append(("cost", "What it took", page.table("Runs, machine and program", ("", ""),

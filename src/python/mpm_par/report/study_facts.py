@@ -1,7 +1,10 @@
 """What a study says in words and tables: texts only, nothing is drawn and no run is opened here.
 
-A study is a mpm_par.study.Study. Its runs are dicts of study.json; figures are in SI units there."""
+A study is a mpm_par.study.Study. Its runs are dicts of study.json, where figures are in SI units.
+"""
 import numpy
+
+from mpm_par.report.facts import clock
 
 OK = "ok"
 
@@ -99,8 +102,8 @@ def is_finest(study, run):
 
 
 def shifts(study):
-    """(titles, rows): what figures owe to the threshold: their change with specimen.threshold_shift,
-    of the finest runs with otherwise the same settings."""
+    """(titles, rows): what figures owe to the threshold: their change with
+    specimen.threshold_shift, of the finest runs with otherwise the same settings."""
     key = "specimen.threshold_shift"
     apart = {"output.snapshots", key}
     measures = numbers(study)
@@ -147,14 +150,6 @@ def opening(study):
             break
         lines.append(line.lstrip("# ").strip())
     return " ".join(lines)
-
-
-def clock(seconds):
-    if seconds is None:
-        return "-"
-    if seconds < 120:
-        return f"{seconds:.3g} s"
-    return f"{seconds / 60:.3g} min" if seconds < 7200 else f"{seconds / 3600:.3g} h"
 
 
 def cost(studies):

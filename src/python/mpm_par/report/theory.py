@@ -26,7 +26,7 @@ def wall_of(run):
 
 
 def honeycomb_rows(study, runs):
-    """(titles, rows) of foam theory beside each figure. `runs`: (run of study.json, mpm_par.Run)."""
+    """(titles, rows) of foam theory beside each figure. `runs`: (entry of study.json, Run)."""
     rows = []
     for entry, run in runs:
         wall, density = wall_of(run), (run.summary or {}).get("relative_density")
