@@ -22,6 +22,7 @@ PAGE = runs.PROJECT / "docs" / "wood_study.md"
 FOLDER = runs.PROJECT / "docs" / "wood_study"
 TEXT = Path(__file__).with_name("wood_study_page.md")
 KEPT = ("study.csv", "study.json")
+FRAMES = {"wood_yield": (3, 4), "wood_poplar": (1, 2), "wood_ponderosa": (1,)}  # runs, from 1 on
 
 
 def take(results):
@@ -33,9 +34,23 @@ def take(results):
             shutil.copyfile(folder / name, place / name)
         for picture in (Path(results) / "report").glob(f"{folder.name}_curves.png"):
             shutil.copyfile(picture, FOLDER / picture.name)
-        frames = sorted((Path(results) / "report").glob(f"{folder.name}_*plastic_work_*.png"))
-        for picture in frames:
-            shutil.copyfile(picture, place / picture.name)
+        for number in FRAMES.get(folder.name, ()):
+            pattern = f"{folder.name}_{number}_plastic_work_*.png"
+            strip(sorted((Path(results) / "report").glob(pattern)),
+                  FOLDER / f"{folder.name}_{number}_frames.png")
+
+
+def strip(pictures, place):
+    """The first four pictures side by side, as wide as a page."""
+    from PIL import Image
+    images = [Image.open(picture).convert("RGB") for picture in pictures[:4]]
+    width = 1600 // len(images)
+    images = [image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
+              for image in images]
+    whole = Image.new("RGB", (width * len(images), max(image.height for image in images)), "white")
+    for k, image in enumerate(images):
+        whole.paste(image, (k * width, 0))
+    whole.quantize(128).save(place, optimize=True)
 
 
 def took():
@@ -52,7 +67,7 @@ def took():
 
 
 def values():
-    """What stands in braces in wood_study_page.md."""
+    """What may stand in braces in wood_study_page.md."""
     found = {"took": took()}
     for folder in study_folders(FOLDER):
         study = read_study(folder)
@@ -69,7 +84,9 @@ def values():
 
 
 def written():
-    return finished(TEXT, filled_in(TEXT, values()))
+    text = TEXT.read_text()
+    asked = {key: value for key, value in values().items() if "{" + key + "}" in text}
+    return finished(TEXT, filled_in(TEXT, asked))
 
 
 def main():
