@@ -19,12 +19,13 @@ namespace {
 
 constexpr int deepest = 50;  // anchors that contain themselves would never end
 // Each use of an anchor copies what it stands for: a few lines can stand for more than any memory.
-constexpr long most_nodes = 1'000'000;
+// Without anchors there are no more values than characters.
+constexpr std::size_t most_copies = 100'000;
 
 class TreeBuilder {
  public:
-  TreeBuilder(const std::string& origin, bool single_place)
-      : origin_(origin), single_place_(single_place)
+  TreeBuilder(const std::string& text, const std::string& origin, bool single_place)
+      : origin_(origin), single_place_(single_place), most_nodes_(text.size() + most_copies)
   {
   }
 
@@ -35,11 +36,11 @@ class TreeBuilder {
           "{}: nested more than {} deep (an anchor that contains itself?). A scene needs "
           "six levels: write out what is needed.",
           outer.text(), deepest));
-    if (++nodes_ > most_nodes)
+    if (++nodes_ > most_nodes_)
       throw InputError(
           fmt::format("{}: the scene has more than {} values (anchors that multiply?). Write out "
                       "what is needed.",
-                      outer.text(), most_nodes));
+                      outer.text(), most_nodes_));
     Node node;
     node.place = from.IsNull() ? outer : place(from.Mark());
     if (from.IsScalar()) {
@@ -84,7 +85,7 @@ class TreeBuilder {
  private:
   std::string origin_;
   bool single_place_;
-  long nodes_ = 0;
+  std::size_t most_nodes_, nodes_ = 0;
 };
 
 /// Looks for a second document. The library's own list of all documents never ends where a stray
@@ -149,7 +150,7 @@ std::string remedy_of(const YAML::Exception& problem, const std::string& text)
 
 Node parse_yaml(const std::string& text, const std::string& origin, bool single_place)
 {
-  TreeBuilder builder(origin, single_place);
+  TreeBuilder builder(text, origin, single_place);
   try {
     if (const std::optional<YAML::Mark> second = DocumentCounter::second_of(text))
       throw InputError(

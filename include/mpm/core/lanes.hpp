@@ -49,11 +49,12 @@ inline Record<4> pairs(double a, double b)
 /// ln m = 2 atanh((m - 1) / (m + 1)) as an odd series, |argument| < 0.172.
 inline Lanes lane_log(const Lanes& value)
 {
-  using Bits = stdx::rebind_simd_t<std::int64_t, Lanes>;
+  // Shifted without a sign: with one, libstdc++ 12 shifts an int by 32, of which Clang makes anything.
+  using Bits = stdx::rebind_simd_t<std::uint64_t, Lanes>;
+  using Integers = stdx::rebind_simd_t<std::int64_t, Lanes>;
   const auto bits = std::bit_cast<Bits>(value);
-  const Bits exponent_bits = (bits >> 52) - 1023;
-  Lanes exponent = stdx::static_simd_cast<Lanes>(exponent_bits);
-  Lanes m = std::bit_cast<Lanes>((bits & 0x000fffffffffffffLL) | 0x3ff0000000000000LL);
+  Lanes exponent = stdx::static_simd_cast<Lanes>(std::bit_cast<Integers>(bits >> 52) - 1023);
+  Lanes m = std::bit_cast<Lanes>((bits & 0x000fffffffffffffULL) | 0x3ff0000000000000ULL);
   const LaneMask large = m > 1.4142135623730951;
   stdx::where(large, m) = 0.5 * m;
   stdx::where(large, exponent) = exponent + 1.0;
