@@ -55,25 +55,29 @@ def level_keys(along, varied, combinations):
     return tuple(found)
 
 
+def _labelled(settings):
+    """(label, settings without it) of an entry of `runs`."""
+    label = settings["label"].text if "label" in settings else ""
+    return label, {key: value for key, value in settings.items() if key != "label"}
+
+
 def read_combinations(keys, default_ranks):
     """Every combination of the lists of `vary` with every entry of `runs`."""
     lists = _lists(keys["vary"]) if "vary" in keys else {}
-    entries, labels = [{}], {}
+    entries = [("", {})]  # label and settings
     if "runs" in keys:
         node = keys["runs"]
         if not node.is_list or not node.value:
             raise node.wrong("runs is no list", "Write a list of maps: "
                              "- {numerics.scheme: apic, numerics.cfl: 0.5}.")
-        entries = [dict(settings_of(entry, "an entry of runs")) for entry in node.value]
-        labels = {id(entry): entry.pop("label").text for entry in entries if "label" in entry}
-    varied = list(dict.fromkeys(itertools.chain(lists, *entries)))
-    for entry in entries:
+        entries = [_labelled(settings_of(entry, "an entry of runs")) for entry in node.value]
+    varied = list(dict.fromkeys(itertools.chain(lists, *(entry for _, entry in entries))))
+    for _, entry in entries:
         for key in entry:
             if key in lists:
                 raise entry[key].wrong(f"{key} is varied too", "Set it in vary or in runs.")
     found, nodes = [], {}
-    for entry in entries:
-        label = labels.get(id(entry), "")
+    for label, entry in entries:
         labelled = tuple(entry) if label else ()
         for values in itertools.product(*(node.value for node in lists.values())):
             chosen = {**dict(zip(lists, values)), **entry}

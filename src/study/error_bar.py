@@ -80,7 +80,7 @@ def _run_level(given, program, kept, assignments, factor):
     done = kept.find(assignments, given.ranks, 1)
     before = done is not None
     if not before:
-        done = kept.run(program, given.files[0], assignments, given.ranks, 1)
+        done = kept.run(program, given.file, assignments, given.ranks, 1)
     said = "done before" if before else f"{done.ended.elapsed_seconds:.1f} s"
     if done.ended.exit_status:
         said += f", failed: {done.ended.message}"
@@ -90,20 +90,20 @@ def _run_level(given, program, kept, assignments, factor):
 
 def run_levels(given, program, output):
     """[(factor, store.Done)] from coarse to fine of the levels that ended well."""
-    own = read_yaml(given.files[0])
+    own = read_yaml(given.file)
     assignments = assignments_of(given)
     if _get(own, "steps") or any(key == "steps" for key, _ in assignments):
-        raise InputError(f"{given.files[0]}: has steps, and every level would end at another time. "
+        raise InputError(f"{given.file}: has steps, and every level would end at another time. "
                          "Remove the key.")
     check_factors(given)
     trees = [own, *(Node(value, "--set") for _, value in assignments)]
-    kept = store.Store(output, store.scene_print(given.files[0], trees), program.identity)
+    kept = store.Store(output, store.scene_print(given.file, trees), program.identity)
     base = _run_level(given, program, kept, assignments, 1)
     if base.ended.exit_status:
         kind = InputError if base.ended.exit_status == BAD_INPUT else NoResult
         raise kind(base.ended.message)
     if "compression" not in base.summary:
-        raise InputError(f"{given.files[0]}: compresses nothing, so there is no modulus. "
+        raise InputError(f"{given.file}: compresses nothing, so there is no modulus. "
                          "Use a study with an error of your own: docs/studies.md.")
     effective = read_yaml(base.folder / "scene.yaml")
     cells = base.summary["cells"]

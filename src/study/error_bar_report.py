@@ -117,7 +117,7 @@ def json_text(given, program, levels, plateau, bars):
     figures = {bar.figure.name: {key: value for key, value in dataclasses.asdict(bar).items()
                                  if key != "figure"} for bar in bars}
     return json.dumps({
-        "scene": given.files[0], "settings": given.set, "ranks": given.ranks,
+        "scene": given.file, "settings": given.set, "ranks": given.ranks,
         "plateau_strain": plateau, "figures": figures, "levels": _costs(levels),
         "safety_factor_where_levels_agree": convergence.FACTOR,
         "safety_factor_of_three_levels": convergence.UNCONFIRMED_FACTOR,

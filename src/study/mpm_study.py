@@ -60,6 +60,7 @@ def arguments_of(words):
         parser.error("--quick belongs to a study, --error-bar to a scene. Leave one away.")
     if given.error_bar and len(given.files) > 1:
         parser.error("--error-bar belongs to one scene, and several files are named. Name one.")
+    given.file = given.files[0]  # of --error-bar
     stems = [pathlib.Path(path).stem for path in given.files]
     if len(set(stems)) < len(stems):
         parser.error("two studies have the same name, and so one folder. Rename one.")

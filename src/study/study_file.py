@@ -58,7 +58,6 @@ class Study:
         settings.update(combination.settings)
         return list(settings.items())
 
-
     def known_of(self, combination):
         """What others found for this run: values by name of the measure; later entries count."""
         found = {}

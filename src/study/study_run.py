@@ -86,7 +86,8 @@ def run_studies(given, program, output):
     for study in studies:
         check_keys(study, program)
     if len(studies) == 1:
-        return run(studies[0], given.part, program, output)
+        run(studies[0], given.part, program, output)
+        return
     without = []
     for k, study in enumerate(studies, 1):
         print(f"study {k}/{len(studies)}: {study.title}", flush=True)
@@ -97,7 +98,6 @@ def run_studies(given, program, output):
             without.append(study.path.name)
     if without:
         raise NoResult(f"no run gave a figure: {', '.join(without)}.")
-    return None
 
 
 def run(study, part, program, output):

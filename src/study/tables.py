@@ -34,17 +34,16 @@ def _settings(study, row):
 
 
 def _point(study, row, measure):
-    bar = row.bars.get(measure.name)
-    found = {f"value_{measure.name}": _number(row.values.get(measure.name)),
-             f"error_{measure.name}": _number(row.errors.get(measure.name)),
-             f"bar_{measure.name}": _number(bar.uncertainty if bar else None),
-             f"known_{measure.name}": row.known.get(measure.name)}
-    if measure.against not in LEARNT:
-        del found[f"bar_{measure.name}"]
-    if measure.against is None:
-        del found[f"error_{measure.name}"]
-    if not any(measure.name in entry.values for entry in study.known):
-        del found[f"known_{measure.name}"]
+    """Columns of a measure: those that its study can fill."""
+    name = measure.name
+    found = {f"value_{name}": _number(row.values.get(name))}
+    if measure.against is not None:
+        found[f"error_{name}"] = _number(row.errors.get(name))
+    if measure.against in LEARNT:
+        bar = row.bars.get(name)
+        found[f"bar_{name}"] = _number(bar.uncertainty if bar else None)
+    if any(name in entry.values for entry in study.known):
+        found[f"known_{name}"] = row.known.get(name)
     return found
 
 

@@ -56,12 +56,12 @@ def strip(pictures, place):
 def took():
     heads = ["study", "runs", "variant", "run time, one after the other"]
     lines = []
-    for folder in study_folders(FOLDER):
-        study = read_study(folder)
+    studies = [read_study(folder) for folder in study_folders(FOLDER)]
+    for study in studies:
         count, elapsed, _ = study_facts.cost([study])
         lines.append([study.title, str(count), "quick" if study.record["quick"] else "full",
                       facts.clock(elapsed)])
-    total = study_facts.cost([read_study(folder) for folder in study_folders(FOLDER)])
+    total = study_facts.cost(studies)
     lines.append(["all", str(total[0]), "", facts.clock(total[1])])
     return table(heads, lines)
 
