@@ -6,10 +6,11 @@ add_library(mpm_anatomy STATIC
   ${anatomy_folder}/anatomy_file.cpp ${anatomy_folder}/anatomy_keys.cpp
   ${anatomy_folder}/anatomy_parameters.cpp
   ${anatomy_folder}/anatomy_tissue.cpp)
-target_include_directories(mpm_anatomy PUBLIC ${PROJECT_SOURCE_DIR}/include)
+target_include_directories(mpm_anatomy PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
 target_include_directories(mpm_anatomy SYSTEM PRIVATE ${STB_INCLUDE_DIR})
 target_compile_options(mpm_anatomy PRIVATE -Wall -Wextra -ffp-contract=off -fno-fast-math)
 target_link_libraries(mpm_anatomy PUBLIC mpm_core PRIVATE yaml-cpp::yaml-cpp fmt::fmt)
+mpm_installed(mpm_anatomy)
 
 add_executable(draw_wood ${anatomy_folder}/draw_wood.cpp)
 target_compile_options(draw_wood PRIVATE -Wall -Wextra)

@@ -72,7 +72,8 @@ class Reader {
     } catch (const YAML::BadFile&) {
       throw FileError(file_ + ": cannot read the file (check its name and folder).");
     } catch (const YAML::ParserException& error) {
-      throw InputError(place(error.mark) + error.msg + " (not valid YAML).");
+      throw InputError(place(error.mark) + error.msg +
+                       " (not valid YAML). Write `key: value` lines, and close brackets.");
     }
   }
 
@@ -85,7 +86,7 @@ class Reader {
   {
     if (node.IsMap()) return true;
     problems_.push_back(
-        fmt::format("{}{} holds no keys (write `key: value` lines).", place(node.Mark()), path));
+        fmt::format("{}{} holds no keys. Write `key: value` lines.", place(node.Mark()), path));
     return false;
   }
 

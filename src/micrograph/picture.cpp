@@ -1,4 +1,5 @@
 #include <mpm/core/error.hpp>
+#include <mpm/micrograph/anatomy_drawing.hpp>
 #include <mpm/micrograph/picture.hpp>
 
 #include <algorithm>
@@ -43,9 +44,22 @@ std::array<double, 2> whole_size(const scene::Micrograph& micrograph, const Gray
   return size;
 }
 
+GrayImage drawn_image(const scene::Micrograph& micrograph)
+{
+  const anatomy::Parameters wood = anatomy::read_parameters(micrograph.file);
+  const anatomy::Drawing drawing =
+      anatomy::draw(wood, micrograph.seed ? std::uint64_t(*micrograph.seed) : wood.seed);
+  const auto pixel = [](double micrometres, int pixels) { return micrometres * 1e-6 / pixels; };
+  return {drawing.width,
+          drawing.height,
+          {drawing.gray.begin(), drawing.gray.end()},
+          {{pixel(wood.picture.width, drawing.width), pixel(wood.picture.height, drawing.height)}}};
+}
+
 Picture specimen_picture(const scene::Micrograph& micrograph)
 {
-  GrayImage image = read_image(micrograph.file);
+  GrayImage image =
+      micrograph.is_drawn() ? drawn_image(micrograph) : read_image(micrograph.file);
   std::array<double, 2> size = whole_size(micrograph, image);
   if (micrograph.crop) {
     const double whole_width = image.width, whole_height = image.height;

@@ -1,4 +1,5 @@
 #include <mpm/core/error.hpp>
+#include <mpm/micrograph/grown_walls.hpp>
 #include <mpm/micrograph/location_means.hpp>
 #include <mpm/micrograph/material_names.hpp>
 #include <mpm/micrograph/section.hpp>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -77,6 +79,23 @@ double count_in(std::span<const double> grays, std::span<const Band> bands, cons
   return count;
 }
 
+/// The relative density that the scene asks for, if it does.
+std::optional<double> aimed_share(const scene::Scene& scene)
+{
+  const scene::Micrograph& micrograph = *scene.specimen.micrograph;
+  if (micrograph.threshold_rule == ThresholdRule::target_relative_density)
+    return micrograph.target_relative_density;
+  if (micrograph.threshold_rule != ThresholdRule::target_density) return std::nullopt;
+  const double wall = scene.materials.front().density();
+  if (!(micrograph.target_density < wall))
+    throw InputError(
+        fmt::format("specimen.threshold.target_density is {:g} kg/m^3, and the cell wall has {:g}. "
+                    "Give the density of the whole wood, lumens included, or correct that of the "
+                    "material.",
+                    micrograph.target_density, wall));
+  return micrograph.target_density / wall;
+}
+
 [[noreturn]] void fail_without_wall(const scene::Micrograph& micrograph, double threshold,
                                     std::span<const double> means, const IndexVec<2>& count,
                                     const Share& share)
@@ -99,22 +118,22 @@ double count_in(std::span<const double> grays, std::span<const Band> bands, cons
 
 }  // namespace
 
-Section::Section(const scene::Scene& scene, GrayImage image, const IndexVec<2>& count,
+Section::Section(const scene::Scene& scene, Picture picture, const IndexVec<2>& count,
                  const Share& share)
-    : image_(std::move(image)), count_(count)
+    : image_(std::move(picture.image)), count_(count)
 {
   const scene::Micrograph& micrograph = *scene.specimen.micrograph;
   const IndexBox<2> whole{IndexVec<2>::Zero(), count};
   Lattice<2> rows{count, slab(whole, share.part, share.parts), {}, {}};
-  const std::vector<double> means = location_means(image_, count, rows.part);
-  const bool aimed = micrograph.threshold_rule == ThresholdRule::target_relative_density;
-  const bool matches = micrograph.sampling == scene::Sampling::match && !aimed;
+  std::vector<double> means = location_means(image_, count, rows.part);
+  const std::optional<double> aim = aimed_share(scene);
+  const bool matches = micrograph.sampling == scene::Sampling::match && !aim;
 
   std::vector<Band> of_pixels = bands_of(scene);
   const bool by_threshold = of_pixels.empty();
   if (by_threshold) {
-    figures_.threshold = aimed ? threshold_for_density(means, micrograph.target_relative_density,
-                                                       micrograph.wall, share)
+    figures_.threshold = aim ? threshold_of_density(*aim, micrograph.wall, picture.size, rows.part,
+                                                    means, share)
                          : micrograph.threshold_rule == ThresholdRule::otsu
                              ? otsu_threshold(image_.gray)
                              : micrograph.threshold;
@@ -141,6 +160,31 @@ Section::Section(const scene::Scene& scene, GrayImage image, const IndexVec<2>& 
   if (micrograph.remove_unconnected) return;
   for (const Run& run : removed_runs(rows, {.only_largest = true}, share))
     figures_.unconnected += run.end - run.begin;
+}
+
+double Section::threshold_of_density(double target, scene::Wall wall,
+                                     const std::array<double, 2>& size, const IndexBox<2>& part,
+                                     std::vector<double>& means, const Share& share)
+{
+  const double threshold = threshold_for_density(means, target, wall, share);
+  if (std::ranges::min(image_.gray) == std::ranges::max(image_.gray)) return threshold;
+  // Beyond the gray of the walls or of the lumens a threshold parts noise.
+  const GrayClasses classes = gray_classes(image_);
+  const double locations = double(GlobalIndex(count_[0]) * count_[1]);
+  const Band found = wall_band(threshold, wall);
+  const double missed =
+      std::abs(count_in(means, {&found, 1}, share) / locations - target) - 0.5 / locations;
+  constexpr double tolerated = 0.005;
+  if (threshold > classes.dark && threshold < classes.bright && missed < tolerated)
+    return threshold;
+
+  const std::array<double, 2> pixel{size[0] / image_.width, size[1] / image_.height};
+  GrownWalls grown = grown_walls(image_, classes, wall, pixel);
+  image_ = std::move(grown.image);
+  means = location_means(image_, count_, part);
+  const double level = threshold_for_density(means, target, wall, share);
+  figures_.growth = grown.growth(level) * std::sqrt(pixel[0] * pixel[1]);
+  return level;
 }
 
 void Section::remove_pieces(const scene::Micrograph& micrograph, Lattice<2>& rows, double filled,

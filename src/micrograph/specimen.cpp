@@ -90,7 +90,7 @@ void Specimen<Dim>::settle_picture(const scene::Scene& scene, Picture picture, c
   if constexpr (Dim == 3) size_[2] = scene.specimen.micrograph->depth.value();
   settle_grid(scene, share);
 
-  Section section(scene, std::move(picture.image), count_.template head<2>(), share);
+  Section section(scene, std::move(picture), count_.template head<2>(), share);
   picture_ = section.figures();
   if constexpr (Dim == 3) {
     picture_->removed *= count_[2];

@@ -42,7 +42,7 @@ void check_micrograph(const Checked& checked, const Micrograph& micrograph)
                    "Give the path from the scene's folder");
   else if (!std::filesystem::is_regular_file(micrograph.file, ignored))
     checked.refuse("specimen.micrograph", micrograph.file.string() + " is not a file",
-                   "Name a BMP, PNG or TIFF picture");
+                   "Name a BMP, PNG or TIFF picture, or how to draw one: *.anatomy.yaml");
 
   if (micrograph.crop) {
     for (const int i : {2, 3}) {

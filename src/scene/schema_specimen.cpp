@@ -17,7 +17,8 @@ inline constexpr auto names_of<Flip> = std::to_array<Named<Flip>>({{Flip::none, 
                                                                    {Flip::vertical, "vertical"},
                                                                    {Flip::both, "both"}});
 
-/// `threshold` as written: a gray level, `otsu`, or a map with the density aimed at.
+/// `threshold` as written: a gray level, `otsu`, or a map with the density aimed at, relative or in
+/// kg/m^3.
 struct ThresholdKey {
   ThresholdRule rule = ThresholdRule::value;
   double value = 0;
@@ -28,13 +29,17 @@ namespace {
 constexpr Bound gray_level = from_to(0, 255);
 constexpr Bound gray_shift = from_to(-255, 255);
 constexpr Bound relative_density = between(0, 1);
-const std::string density_key = "target_relative_density";
+const std::string share_key = "target_relative_density";
+const std::string density_key = "target_density";
 
 const Condition<Specimen> from_image{[](const Specimen& s) { return s.micrograph.has_value(); },
                                      "a specimen with a micrograph"};
 const Condition<Specimen> without_bands{
     [](const Specimen& s) { return s.micrograph && s.micrograph->bands.empty(); },
     "a micrograph without bands"};
+const Condition<Specimen> from_drawing{
+    [](const Specimen& s) { return s.micrograph && s.micrograph->is_drawn(); },
+    "a micrograph that is drawn (*.anatomy.yaml)"};
 const Condition<Specimen> from_shapes{[](const Specimen& s) { return !s.micrograph; },
                                       "a specimen without a micrograph"};
 
@@ -58,6 +63,12 @@ Parameter<Specimen> image_member(std::string key, T Micrograph::*pointer, const 
 
 template <>
 struct Value<ThresholdKey> {
+  /// What a density that is aimed at may be.
+  static Rule aim(ThresholdRule rule)
+  {
+    if (rule == ThresholdRule::target_density) return {Quantity::density, above(0)};
+    return {Quantity::fraction, relative_density};
+  }
   static bool read(const Given& given, const Rule& rule, ThresholdKey& key)
   {
     if (given.node.kind == Node::Kind::scalar && given.node.scalar == "otsu") {
@@ -65,16 +76,19 @@ struct Value<ThresholdKey> {
       return true;
     }
     if (given.node.kind == Node::Kind::map) {
-      if (!check_keys(given, {density_key}).empty()) return false;
-      const Entry* entry = given.node.find(density_key);
-      if (entry == nullptr) return given.refuse("needs the key " + density_key);
-      key.rule = ThresholdRule::target_relative_density;
-      return Value<double>::read(given.entry(*entry), {Quantity::fraction, relative_density},
-                                 key.value);
+      if (!check_keys(given, {share_key, density_key}).empty()) return false;
+      const Entry* share = given.node.find(share_key);
+      const Entry* density = given.node.find(density_key);
+      if ((share == nullptr) == (density == nullptr))
+        return given.refuse("needs one of the keys " + share_key + " and " + density_key);
+      key.rule =
+          share ? ThresholdRule::target_relative_density : ThresholdRule::target_density;
+      return Value<double>::read(given.entry(share ? *share : *density), aim(key.rule), key.value);
     }
     key.rule = ThresholdRule::value;
     if (given.node.kind != Node::Kind::scalar || !split_number_and_unit(given.node.scalar))
-      return given.refuse("must be a gray level of 0 to 255, otsu or {" + density_key + ": ...}");
+      return given.refuse("must be a gray level of 0 to 255, otsu, {" + share_key + ": ...} or {" +
+                          density_key + ": ...}");
     return Value<double>::read(given, rule, key.value);
   }
   static Node write(const ThresholdKey& key, const Rule& rule)
@@ -83,20 +97,27 @@ struct Value<ThresholdKey> {
     if (key.rule == ThresholdRule::value) return Value<double>::write(key.value, rule);
     Node node;
     node.kind = Node::Kind::map;
-    node.entries.push_back(
-        {density_key, {}, Value<double>::write(key.value, {Quantity::fraction})});
+    node.entries.push_back({key.rule == ThresholdRule::target_density ? density_key : share_key,
+                            {},
+                            Value<double>::write(key.value, aim(key.rule))});
     return node;
   }
   static std::string describe(const Rule&)
   {
-    return "a gray level of 0 to 255, `otsu` or `{" + density_key + ": 0.4}`";
+    return "a gray level of 0 to 255, `otsu`, `{" + share_key + ": 0.4}` or `{" + density_key +
+           ": 450 kg/m^3}`";
   }
   static Json schema(const Rule& rule)
   {
-    Json aimed{{"type", "object"}, {"additionalProperties", false}, {"required", {density_key}}};
-    aimed["properties"][density_key] =
-        Value<double>::schema({Quantity::fraction, relative_density});
-    return {{"anyOf", {words_schema({"otsu"}), Value<double>::schema(rule), aimed}}};
+    Json any{words_schema({"otsu"}), Value<double>::schema(rule)};
+    for (const ThresholdRule aimed :
+         {ThresholdRule::target_relative_density, ThresholdRule::target_density}) {
+      const std::string& key = aimed == ThresholdRule::target_density ? density_key : share_key;
+      Json map{{"type", "object"}, {"additionalProperties", false}, {"required", {key}}};
+      map["properties"][key] = Value<double>::schema(aim(aimed));
+      any.push_back(std::move(map));
+    }
+    return {{"anyOf", std::move(any)}};
   }
 };
 
@@ -105,8 +126,14 @@ namespace {
 ThresholdKey threshold_key(const Specimen& s)
 {
   const Micrograph m = image(s);
-  const bool aimed = m.threshold_rule == ThresholdRule::target_relative_density;
-  return {m.threshold_rule, aimed ? m.target_relative_density : m.threshold};
+  switch (m.threshold_rule) {
+    case ThresholdRule::target_relative_density:
+      return {m.threshold_rule, m.target_relative_density};
+    case ThresholdRule::target_density:
+      return {m.threshold_rule, m.target_density};
+    default:
+      return {m.threshold_rule, m.threshold};
+  }
 }
 
 void set_threshold(Specimen& s, ThresholdKey key)
@@ -115,6 +142,7 @@ void set_threshold(Specimen& s, ThresholdKey key)
   if (key.rule == ThresholdRule::value) s.micrograph->threshold = key.value;
   if (key.rule == ThresholdRule::target_relative_density)
     s.micrograph->target_relative_density = key.value;
+  if (key.rule == ThresholdRule::target_density) s.micrograph->target_density = key.value;
 }
 
 }  // namespace
@@ -133,17 +161,21 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
           },
           [](S& s, auto file) { s.micrograph.emplace().file = *file; },
           {.decides = true, .default_text = "none"},
-          "picture of a section: BMP, PNG or TIFF, gray or colour"),
+          "picture of a section: BMP, PNG or TIFF, gray or colour; or how to draw one: "
+          "*.anatomy.yaml"),
+      image_member("seed", &I::seed, {.bound = at_least(0), .default_text = "that of the file"},
+                   "another piece of the same kind of wood")
+          .when(from_drawing),
       image_member("image_size", &I::image_size,
                    {.quantity = length,
                     .bound = above(0),
-                    .default_text = "from pixel_size or the TIFF's resolution"},
+                    .default_text = "from pixel_size, the TIFF's resolution or the drawing"},
                    "width and height of the whole picture as stored"),
       image_member("pixel_size", &I::pixel_size,
                    {.quantity = length,
                     .bound = above(0),
                     .spread = true,
-                    .default_text = "from image_size or the TIFF's resolution",
+                    .default_text = "from image_size, the TIFF's resolution or the drawing",
                     .excludes = "image_size"},
                    "width and height of a pixel"),
       image_member("depth", &I::depth,
@@ -176,7 +208,7 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
                                 "gray level that separates cell wall and lumen")
           .when(without_bands),
       property<std::optional<double>, S>(
-          density_key, [](const S&) { return std::optional<double>{}; },
+          share_key, [](const S&) { return std::optional<double>{}; },
           [](S& s, auto density) {
             set_threshold(s, {ThresholdRule::target_relative_density, *density});
           },

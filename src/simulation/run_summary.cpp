@@ -19,6 +19,8 @@ void describe(const Preparation<Dim>& preparation, output::Summary& summary)
   summary.set("relative_density", specimen.densities().front().value);
   if (specimen.picture()) {
     summary.set("picture_relative_density", specimen.picture()->density);
+    summary.set("threshold", specimen.picture()->threshold);
+    summary.set("wall_growth", specimen.picture()->growth);
     summary.set("removed_locations", specimen.picture()->removed);
   }
   summary.set("bulk_density", specimen.densities().front().bulk_density);

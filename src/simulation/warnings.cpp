@@ -50,6 +50,17 @@ void look_at_thin_walls(const scene::Scene& scene, const micrograph::Specimen<Di
 }
 
 template <int Dim>
+void look_at_growth(const micrograph::Specimen<Dim>& specimen, Warnings& warnings)
+{
+  if (!specimen.picture() || specimen.picture()->growth == 0) return;
+  const double growth = specimen.picture()->growth;
+  warnings.push_back(fmt::format(
+      "no threshold of the picture gives the density asked for: its walls were made {} by {:.2g} um "
+      "all around. Check the picture, specimen.wall and the density, or accept it.",
+      growth > 0 ? "thicker" : "thinner", 1e6 * std::abs(growth)));
+}
+
+template <int Dim>
 void look_at_pieces(const micrograph::Specimen<Dim>& specimen, Warnings& warnings)
 {
   if (!specimen.picture() || specimen.picture()->unconnected == 0) return;
@@ -197,6 +208,7 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
   Warnings warnings;
   const bool on_a_grid = !is_total_lagrangian(scene.numerics);
   if (on_a_grid) look_at_thin_walls(scene, specimen, share, warnings);
+  look_at_growth(specimen, warnings);
   look_at_pieces(specimen, warnings);
   look_at_speed(scene, specimen, layout, warnings);
   if (on_a_grid) {

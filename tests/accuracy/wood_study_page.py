@@ -22,7 +22,10 @@ PAGE = runs.PROJECT / "docs" / "wood_study.md"
 FOLDER = runs.PROJECT / "docs" / "wood_study"
 TEXT = Path(__file__).with_name("wood_study_page.md")
 KEPT = ("study.csv", "study.json")
-FRAMES = {"wood_yield": (3, 4), "wood_poplar": (1, 2), "wood_ponderosa": (1,)}  # runs, from 1 on
+PLASTIC_WORK, AXIAL_STRESS = "plastic_work", "axial_stress"
+FRAMES = {"wood_yield": ((3, PLASTIC_WORK), (4, PLASTIC_WORK)),  # runs, from 1 on
+          "wood_poplar": ((1, PLASTIC_WORK), (2, PLASTIC_WORK), (1, AXIAL_STRESS), (2, AXIAL_STRESS)),
+          "wood_ponderosa": ((1, PLASTIC_WORK),)}
 
 
 def take(results):
@@ -34,10 +37,9 @@ def take(results):
             shutil.copyfile(folder / name, place / name)
         for picture in (Path(results) / "report").glob(f"{folder.name}_curves.png"):
             shutil.copyfile(picture, FOLDER / picture.name)
-        for number in FRAMES.get(folder.name, ()):
-            pattern = f"{folder.name}_{number}_plastic_work_*.png"
-            strip(sorted((Path(results) / "report").glob(pattern)),
-                  FOLDER / f"{folder.name}_{number}_frames.png")
+        for number, colour in FRAMES.get(folder.name, ()):
+            stem = f"{folder.name}_{number}_{colour}"
+            strip(sorted((Path(results) / "report").glob(f"{stem}_*.png")), FOLDER / f"{stem}.png")
 
 
 def strip(pictures, place):

@@ -257,6 +257,17 @@ def all_cases():
              files={"wood.png": png(rows=[[0] * 20] * 20)}))
     add(Case("bands outside all gray", ("scene.yaml: no cell wall found", "specimen.bands"),
              replace=[("material: {law", "materials: [{name: wall, law"), ("10 MPa}", "10 MPa}]"), ("  threshold: 100\n", "  bands: [{material: wall, from: 100, to: 101}]\n")]))
+    add(Case("a density above the wall's", ("specimen.threshold.target_density", "1000"),
+             settings=["specimen.threshold={target_density: 1200 kg/m^3}"]))
+    add(Case("two densities", ("specimen.threshold", "one of the keys"),
+             settings=["specimen.threshold={target_density: 400 kg/m^3, target_relative_density: 0.4}"]))
+    add(Case("a seed of a picture that is a file", ("specimen.seed", "drawn"), settings=["specimen.seed=3"]))
+    for name, text, says in [("empty", "", "no keys"), ("of no YAML", "picture: {width_px: 10", "YAML"),
+                             ("of unknown keys", "pictures: {}\n", "picture"), ("a stray comma", ", a", "no keys"),
+                             ("of a gigantic size", "picture: {width_px: 100000, height_px: 100000}\n", "width_px"),
+                             ("of anchors in themselves", "picture: &a {width_px: *a}\n", "width_px")]:
+        add(Case(f"drawing: {name}", ("wood.anatomy.yaml", says), replace=[("wood.png", "wood.anatomy.yaml")],
+                 files={"wood.anatomy.yaml": text.encode()}))
     add(Case("piston across", ("loading.piston",), settings=["loading.piston=front"]))
     add(Case("friction below zero", ("contact",), settings=["contact=[{between: [a, b], friction: -1}]"]))
     add(Case("contact of unknown bodies", ("contact",), settings=["contact=[{between: [oak, pine]}]"]))

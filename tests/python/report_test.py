@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import shutil
+import statistics
 import subprocess
 import unittest
 
@@ -250,7 +251,8 @@ class Report(ProgramTest):
         folder.mkdir()
         files = [folder / "one.yaml", folder / "two.yaml"]
         files[0].write_text(study)
-        files[1].write_text(study.replace("[0, 20]", "[0]"))
+        files[1].write_text(study.replace("specimen.threshold_shift: [0, 20]", "specimen.seed: [2, 3]")
+                            .replace("set: {", "set: {specimen.micrograph: loblolly.anatomy.yaml, "))
         made = subprocess.run([REPORT.with_name("mpm_study"), *files, "-o", folder],
                               capture_output=True, text=True, timeout=300)
         self.assertEqual(made.returncode, 0, made.stderr + made.stdout)
@@ -265,7 +267,12 @@ class Report(ProgramTest):
         by_key = {tuple(run["settings"].values()): run["value_stress"] for run in runs}
         change = 100 * (by_key["right", "20", "1"] / by_key["right", "0", "1"] - 1)
         self.assertIn(f"{change:+.0f} %", text)
-        for words in ("All 6 runs ended well", "Both directions of a wood.", "Foam theory",
+        drawn = [run["value_stress"] / 1e6 for run in read_study(folder / "two").record["runs"]
+                 if run["settings"]["loading.piston"] == "right"]
+        self.assertNotEqual(*drawn)
+        self.assertIn(f"{statistics.mean(drawn):.4g} ± {statistics.stdev(drawn):.2g} "
+                      f"({min(drawn):.4g} to {max(drawn):.4g})", text)
+        for words in ("All 8 runs ended well", "Over drawn specimens", "Both directions of a wood.", "Foam theory",
                       "What the threshold is worth", "one.yaml", "A book"):
             self.assertIn(words, text)
         pictures = {path.name for path in (folder / "report").iterdir()}

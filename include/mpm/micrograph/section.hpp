@@ -2,6 +2,7 @@
 /// What a picture makes of each location of a section across z.
 
 #include <mpm/micrograph/image.hpp>
+#include <mpm/micrograph/picture.hpp>
 #include <mpm/micrograph/pieces.hpp>
 #include <mpm/micrograph/share.hpp>
 
@@ -16,6 +17,9 @@ struct PictureFigures {
   double threshold = 0;           ///< gray level that parts the pixels; 0 with bands
   double location_threshold = 0;  ///< that parts the mean grays of the locations; 0 with bands
   double density = 0;             ///< share of the pixels that are wall
+  /// m by which walls were made thicker (below 0: thinner) all around, where no threshold gives the
+  /// density aimed at; the thresholds are then levels of the distance picture (grown_walls.hpp).
+  double growth = 0;
   std::int64_t removed = 0;       ///< locations removed as specks or unconnected pieces
   std::int64_t unconnected = 0;   ///< locations left in pieces that do not hang on the largest
 };
@@ -33,7 +37,7 @@ class Section {
  public:
   /// Limits and pieces are found by all parts together, each from its slab of the rows. Collective.
   /// Throws on all parts or on none InputError (no wall, impossible bands).
-  Section(const scene::Scene& scene, GrayImage image, const IndexVec<2>& count, const Share& share);
+  Section(const scene::Scene& scene, Picture picture, const IndexVec<2>& count, const Share& share);
 
   const PictureFigures& figures() const { return figures_; }
   /// Materials of the locations of a part, x fastest.
@@ -44,6 +48,12 @@ class Section {
   const GrayImage& image() const { return image_; }
 
  private:
+  /// The threshold that gives the relative density, in the picture or, where none does, in that of
+  /// the distances from its walls' surface, which takes the picture's place. `means`: of `part`.
+  /// Collective.
+  double threshold_of_density(double target, scene::Wall wall, const std::array<double, 2>& size,
+                              const IndexBox<2>& part, std::vector<double>& means,
+                              const Share& share);
   /// `rows`: this part's slab, `filled`: locations of all parts. Collective.
   void remove_pieces(const scene::Micrograph& micrograph, Lattice<2>& rows, double filled,
                      const Share& share);

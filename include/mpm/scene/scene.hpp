@@ -45,7 +45,7 @@ struct Material {
 // ---------------------------------------------------------------------------- specimen
 
 enum class Wall { bright, dark };
-enum class ThresholdRule { value, otsu, target_relative_density };
+enum class ThresholdRule { value, otsu, target_relative_density, target_density };
 enum class Sampling {
   match,     ///< as many locations as pixels, by share, reach the threshold
   threshold  ///< a location's mean gray is compared with the pixels' threshold
@@ -69,7 +69,9 @@ struct Window {
 };
 
 struct Micrograph {
-  std::filesystem::path file;                       ///< resolved against the scene's folder
+  std::filesystem::path file;  ///< resolved against the scene's folder
+  /// Of a drawn picture, in the place of its file's: another piece of the same kind of wood.
+  std::optional<int> seed;
   std::optional<std::array<double, 2>> image_size;  ///< m, of the whole image as stored
   std::optional<std::array<double, 2>> pixel_size;  ///< m
   std::optional<double> depth;  ///< m along z, through which the picture is drawn out in space
@@ -81,11 +83,14 @@ struct Micrograph {
   ThresholdRule threshold_rule = ThresholdRule::value;
   double threshold = 150;              ///< gray level of 0..255
   double target_relative_density = 0;  ///< with ThresholdRule::target_relative_density
+  double target_density = 0;           ///< kg/m^3, with ThresholdRule::target_density
   double threshold_shift = 0;          ///< gray levels added to what any of the rules gives
   Sampling sampling = Sampling::match;
   int remove_specks = 0;            ///< wall pieces of fewer locations than this are void
   bool remove_unconnected = false;  ///< keep only pieces linked to the largest
   std::vector<GrayBand> bands;      ///< several materials by gray; empty: one material
+  /// The file says how to draw the picture (docs/anatomy.md).
+  bool is_drawn() const { return file.string().ends_with(".anatomy.yaml"); }
   bool operator==(const Micrograph&) const = default;
 };
 

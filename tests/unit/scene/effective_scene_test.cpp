@@ -34,6 +34,17 @@ material: {law: isotropic, density: 1 g/cm^3, youngs_modulus: 1 GPa, poisson_rat
 )");
 }
 
+TEST_F(EffectiveScene, OfADrawnMicrographReadsBackTheSame)
+{
+  write("wood.anatomy.yaml", "only its existence is checked here");
+  expect_round_trip(R"(specimen:
+  micrograph: wood.anatomy.yaml
+  seed: 7
+  threshold: {target_density: 0.45 g/cm^3}
+loading: {piston: right, speed: 10 m/s}
+)");
+}
+
 TEST_F(EffectiveScene, OfAMicrographWithEveryKeyReadsBackTheSame)
 {
   expect_round_trip(R"(title: "all: of 'it' \"quoted\""

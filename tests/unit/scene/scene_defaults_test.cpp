@@ -57,7 +57,7 @@ TEST_F(SceneDefaults, OneValueStandsForAllSidesOfThePlane)
   EXPECT_THAT(*scene.grid.spacing, ElementsAre(5e-6, 5e-6, 0));
 }
 
-TEST_F(SceneDefaults, ThresholdTakesThreeForms)
+TEST_F(SceneDefaults, ThresholdTakesFourForms)
 {
   const auto image = [&](const std::string& lines) {
     return *read("specimen:\n  micrograph: wood.png\n" + lines + "loading: {speed: 1 m/s}\n")
@@ -70,6 +70,9 @@ TEST_F(SceneDefaults, ThresholdTakesThreeForms)
     EXPECT_EQ(image(aimed).threshold_rule, ThresholdRule::target_relative_density);
     EXPECT_EQ(image(aimed).target_relative_density, 0.4);
   }
+  const Micrograph weighed = image("  threshold: {target_density: 0.45 g/cm^3}\n");
+  EXPECT_EQ(weighed.threshold_rule, ThresholdRule::target_density);
+  EXPECT_DOUBLE_EQ(weighed.target_density, 450);
   EXPECT_TRUE(image("  flip: both\n").flip_vertical);
   EXPECT_EQ(image("  rotate: 270\n").rotate, 270);
 }

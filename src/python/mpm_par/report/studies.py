@@ -24,6 +24,13 @@ def _opened(study, folder):
     return found
 
 
+def _finish(axes, columns, size):
+    """Grid lines, and a legend below."""
+    axes.grid(color="#e6e8eb", lw=0.7)
+    axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.46, -0.14), ncols=columns,
+                fontsize=size)
+
+
 def _curves(stem, study, runs):
     """All curves in one picture, up to three times the largest stress of densification."""
     runs = [(entry, run) for entry, run in runs if run.axis is not None]
@@ -42,11 +49,10 @@ def _curves(stem, study, runs):
                       label=study_facts.name_of(study, entry))
         axes.set(xlabel="compressive strain (%)", ylabel="stress (MPa)", xlim=(0, None),
                  ylim=(0, top / 1e6))
-        axes.grid(color="#e6e8eb", lw=0.7)
-        axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.46, -0.13),
-                    ncols=1 + (len(runs) > 4), fontsize=7.5)
+        _finish(axes, columns, 7.5)
 
-    rows = -(-len(runs) // (1 + (len(runs) > 4)))
+    columns = 1 + (len(runs) > 4)
+    rows = -(-len(runs) // columns)
     return drawing.plot(f"{stem}_curves", draw,
                         f"Stress over strain of {len(runs)} runs.",
                         "Mean of the stress at the piston and at the fixed edge over the first "
@@ -82,9 +88,7 @@ def _ladders(stem, study):
         axes.set_xticks(range(len(levels)), levels)
         axes.axhline(0, color=pictures.INK, lw=0.8)
         axes.set(xlabel=record["along"], ylabel="difference from the last level (%)")
-        axes.grid(color="#e6e8eb", lw=0.7)
-        axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.46, -0.15), ncols=2,
-                    fontsize=7)
+        _finish(axes, 2, 7)
 
     entries = -(-len(measures) * len(series) // 2)
     return drawing.plot(f"{stem}_levels", draw,
@@ -94,22 +98,20 @@ def _ladders(stem, study):
 
 
 def _structures(stem, study, runs, made):
-    """Frames of the runs that left snapshots, coloured by the first of plastic work and stress that
-    a run has."""
+    """Frames of the runs that left snapshots, coloured by plastic work and by axial stress, as far as
+    a run has them."""
     html = ""
     for number, (entry, run) in enumerate(runs, 1):
         if len(run.snapshots) < 2 or not study_facts.is_finest(study, entry):
             continue
-        shown = structure.colourings(run, run.snapshots[-1])[0]
-        if not shown:
-            continue
-        frames = structure.draw_frames(run, structure.Stage(run), structure.choose(run, []),
-                                       shown[0])
-        for frame in frames:
-            frame.stem = f"{stem}_{number}_{frame.stem}"
-        made += frames
-        html += (f"<h3>{escape(study_facts.name_of(study, entry))}, coloured by "
-                 f"{escape(shown[0].name)}</h3>" + page.gallery(frames))
+        stage, moments = structure.Stage(run), structure.choose(run, [])
+        for colouring in structure.colourings(run, run.snapshots[-1])[0]:
+            frames = structure.draw_frames(run, stage, moments, colouring)
+            for frame in frames:
+                frame.stem = f"{stem}_{number}_{frame.stem}"
+            made += frames
+            html += (f"<h3>{escape(study_facts.name_of(study, entry))}, coloured by "
+                     f"{escape(colouring.name)}</h3>" + page.gallery(frames))
     return html
 
 
@@ -130,6 +132,8 @@ def _section(folder, study, made):
                      "speed, of the last of a ladder", study_facts.figures(study))
             + (page.listed(found) if (found := study_facts.limits(study)) else "")
             + _table("What the threshold is worth", study_facts.shifts(study))
+            + _table("Over drawn specimens: mean ± standard deviation (least to most)",
+                     study_facts.scatter(study))
             + _table(f"Found here / {source} (difference)", study_facts.beside_known(study))
             + _table("Foam theory: hexagons of the same relative density whose walls bend, with "
                      "free sides (Gibson and Ashby)", theory.honeycomb_rows(study, runs))

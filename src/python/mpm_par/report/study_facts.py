@@ -126,6 +126,40 @@ def shifts(study):
         rows
 
 
+def scatter(study):
+    """(titles, rows): mean, standard deviation and range of each figure over drawn specimens of one
+    kind (specimen.seed), of the runs with otherwise the same settings."""
+    key = "specimen.seed"
+    measures = numbers(study)
+    groups = {}
+    for run in study.record["runs"]:
+        if run["state"] == OK and run["settings"].get(key):
+            rest = tuple((name, value) for name, value in run["settings"].items() if name != key)
+            groups.setdefault(rest, []).append(run)
+    rows = []
+    for rest, runs in groups.items():
+        if len(runs) < 2:
+            continue
+        shared = [word for word in runs[0]["label"].split(", ")
+                  if all(word in run["label"].split(", ") for run in runs)]
+        rows.append([", ".join(shared) or "all", str(len(runs)),
+                     *(_spread(measure, runs) for measure in measures)])
+    return ["runs", "specimens", *map(title, measures)], rows
+
+
+def _spread(measure, runs):
+    values = [run[f"value_{measure['name']}"] for run in runs]
+    values = [value for value in values if value is not None]
+    if not values:
+        return "-"
+    words = shown(measure, numpy.mean(values))
+    if len(values) > 1:
+        deviation = numpy.std(values, ddof=1)
+        words += (f" ± {deviation * _unit(measure)[1]:.2g} ({shown(measure, min(values))} to "
+                  f"{shown(measure, max(values))})")
+    return words if len(values) == len(runs) else f"{words}, of {len(values)}"
+
+
 def limits(study):
     """Sentences: what each figure tends to along the key that refines, where it does."""
     found = []
