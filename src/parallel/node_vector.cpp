@@ -90,7 +90,7 @@ auto NodeRows<Dim>::couplings(LocalIndex reach) const -> Couplings
     });
     // Where an axis begins again after a few nodes, a node is met more than once.
     std::ranges::sort(row);
-    row.erase(std::ranges::unique(row).begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
     const auto own =
         std::ranges::count_if(row, [&](GlobalIndex r) { return r >= first_ && r < end; });
     couplings.own.push_back(PetscInt(own));
