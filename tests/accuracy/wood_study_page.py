@@ -77,6 +77,9 @@ def values():
         known = study_facts.beside_known(study)
         if known[1]:
             found[f"{folder.name}_known"] = table(*known)
+        scatter = study_facts.scatter(study)
+        if scatter[1]:
+            found[f"{folder.name}_scatter"] = table(*scatter)
         limits = study_facts.limits(study)
         if limits:
             found[f"{folder.name}_limits"] = "\n".join(f"- {line}" for line in limits)

@@ -270,7 +270,7 @@ class Report(ProgramTest):
         drawn = [run["value_stress"] / 1e6 for run in read_study(folder / "two").record["runs"]
                  if run["settings"]["loading.piston"] == "right"]
         self.assertNotEqual(*drawn)
-        self.assertIn(f"{statistics.mean(drawn):.4g} ± {statistics.stdev(drawn):.2g} "
+        self.assertIn(f"{statistics.mean(drawn):.4g} ± {float(format(statistics.stdev(drawn), '.2g')):.4g} "
                       f"({min(drawn):.4g} to {max(drawn):.4g})", text)
         for words in ("All 8 runs ended well", "Over drawn specimens", "Both directions of a wood.", "Foam theory",
                       "What the threshold is worth", "one.yaml", "A book"):

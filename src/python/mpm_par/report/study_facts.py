@@ -19,6 +19,11 @@ def four_digits(number):
     return f"{number:.4g}" if abs(number) < 1e4 else f"{number:,.0f}"
 
 
+def _two_digits(measure, spread):
+    """An error or a deviation as a text without its unit."""
+    return four_digits(float(f"{spread * _unit(measure)[1]:.2g}"))
+
+
 def _unit(measure):
     """(unit, factor from SI) of a measure of study.json."""
     ending = (measure["path"] or measure["column"]).split(".")[-1]
@@ -58,7 +63,7 @@ def _figure(measure, run):
     if value is None:
         return "-"
     words = shown(measure, value)
-    return words if bar is None else f"{words} ± {bar * _unit(measure)[1]:.2g}"
+    return words if bar is None else f"{words} ± {_two_digits(measure, bar)}"
 
 
 def figures(study):
@@ -154,9 +159,8 @@ def _spread(measure, runs):
         return "-"
     words = shown(measure, numpy.mean(values))
     if len(values) > 1:
-        deviation = numpy.std(values, ddof=1)
-        words += (f" ± {deviation * _unit(measure)[1]:.2g} ({shown(measure, min(values))} to "
-                  f"{shown(measure, max(values))})")
+        words += (f" ± {_two_digits(measure, numpy.std(values, ddof=1))} "
+                  f"({shown(measure, min(values))} to {shown(measure, max(values))})")
     return words if len(values) == len(runs) else f"{words}, of {len(values)}"
 
 
