@@ -21,8 +21,8 @@ struct CompressionProperties {
   double elastic_intercept = 0;  ///< Pa, of that line at zero strain
   std::optional<CurvePoint> buckling;
   std::optional<CurvePoint> densification;
-  double plateau_slope = 0;                     ///< Pa, of the line through both onsets
-  double densification_slope = 0;               ///< Pa, of the line that rises from the second
+  std::optional<double> plateau_slope;          ///< Pa, of the line through both onsets
+  std::optional<double> densification_slope;    ///< Pa, of the line that rises from the second
   std::optional<CurvePoint> energy_efficiency;  ///< its strain maximises (1/stress) int stress
   std::string remark;                           ///< why something is missing; empty if nothing is
 };

@@ -27,7 +27,7 @@ def _two_digits(measure, spread):
 def _unit(measure):
     """(unit, factor from SI) of a measure of study.json."""
     ending = (measure["path"] or measure["column"]).split(".")[-1]
-    if ending.startswith(("stress", "modulus")):
+    if ending.startswith(("stress", "modulus")) or ending.endswith("slope"):
         return "MPa", 1e-6
     return ("%", 100) if ending == "strain" else ("", 1)
 
