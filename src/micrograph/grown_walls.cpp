@@ -68,7 +68,8 @@ std::vector<double> squared_distances(const GrayImage& image, const std::vector<
 {
   const auto width = std::size_t(image.width), height = std::size_t(image.height);
   std::vector<double> squares(kind.size());
-  std::ranges::transform(kind, squares.begin(), [](char of_kind) { return of_kind ? 0 : infinity; });
+  std::ranges::transform(kind, squares.begin(),
+                         [](char of_kind) { return of_kind ? 0 : infinity; });
   LowerEnvelope envelope(std::max(width, height));
   for (std::size_t row = 0; row < height; ++row)
     envelope.apply(std::span(squares).subspan(row * width, width), pixel[0]);

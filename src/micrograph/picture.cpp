@@ -58,8 +58,7 @@ GrayImage drawn_image(const scene::Micrograph& micrograph)
 
 Picture specimen_picture(const scene::Micrograph& micrograph)
 {
-  GrayImage image =
-      micrograph.is_drawn() ? drawn_image(micrograph) : read_image(micrograph.file);
+  GrayImage image = micrograph.is_drawn() ? drawn_image(micrograph) : read_image(micrograph.file);
   std::array<double, 2> size = whole_size(micrograph, image);
   if (micrograph.crop) {
     const double whole_width = image.width, whole_height = image.height;

@@ -132,11 +132,10 @@ Section::Section(const scene::Scene& scene, Picture picture, const IndexVec<2>& 
   std::vector<Band> of_pixels = bands_of(scene);
   const bool by_threshold = of_pixels.empty();
   if (by_threshold) {
-    figures_.threshold = aim ? threshold_of_density(*aim, micrograph.wall, picture.size, rows.part,
-                                                    means, share)
-                         : micrograph.threshold_rule == ThresholdRule::otsu
-                             ? otsu_threshold(image_.gray)
-                             : micrograph.threshold;
+    figures_.threshold =
+        aim ? threshold_of_density(*aim, micrograph.wall, picture.size, rows.part, means, share)
+        : micrograph.threshold_rule == ThresholdRule::otsu ? otsu_threshold(image_.gray)
+                                                           : micrograph.threshold;
     figures_.threshold += micrograph.threshold_shift;
     of_pixels = {wall_band(figures_.threshold, micrograph.wall)};
   }

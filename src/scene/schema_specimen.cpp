@@ -81,8 +81,7 @@ struct Value<ThresholdKey> {
       const Entry* density = given.node.find(density_key);
       if ((share == nullptr) == (density == nullptr))
         return given.refuse("needs one of the keys " + share_key + " and " + density_key);
-      key.rule =
-          share ? ThresholdRule::target_relative_density : ThresholdRule::target_density;
+      key.rule = share ? ThresholdRule::target_relative_density : ThresholdRule::target_density;
       return Value<double>::read(given.entry(share ? *share : *density), aim(key.rule), key.value);
     }
     key.rule = ThresholdRule::value;

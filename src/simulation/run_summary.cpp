@@ -5,6 +5,8 @@
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/run_summary.hpp>
 
+#include <optional>
+
 namespace mpm {
 
 namespace {
@@ -19,8 +21,11 @@ void describe(const Preparation<Dim>& preparation, output::Summary& summary)
   summary.set("relative_density", specimen.densities().front().value);
   if (specimen.picture()) {
     summary.set("picture_relative_density", specimen.picture()->density);
-    summary.set("threshold", specimen.picture()->threshold);
-    summary.set("wall_growth", specimen.picture()->growth);
+    const micrograph::PictureFigures& picture = *specimen.picture();
+    // With bands there is none, and where walls were grown it is no gray of the picture.
+    const bool is_gray = picture.threshold != 0 && picture.growth == 0;
+    summary.set("threshold", is_gray ? std::optional(picture.threshold) : std::nullopt);
+    summary.set("wall_growth", picture.growth);
     summary.set("removed_locations", specimen.picture()->removed);
   }
   summary.set("bulk_density", specimen.densities().front().bulk_density);

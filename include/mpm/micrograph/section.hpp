@@ -20,8 +20,8 @@ struct PictureFigures {
   /// m by which walls were made thicker (below 0: thinner) all around, where no threshold gives the
   /// density aimed at; the thresholds are then levels of the distance picture (grown_walls.hpp).
   double growth = 0;
-  std::int64_t removed = 0;       ///< locations removed as specks or unconnected pieces
-  std::int64_t unconnected = 0;   ///< locations left in pieces that do not hang on the largest
+  std::int64_t removed = 0;      ///< locations removed as specks or unconnected pieces
+  std::int64_t unconnected = 0;  ///< locations left in pieces that do not hang on the largest
 };
 
 /// Gray levels [from, to) made of one material.

@@ -31,7 +31,7 @@ std::vector<double> cell(Vec<Dim> node, double angle, int turns)
       at[0] = -at[0];
     }
   }
-  std::vector<double> values(std::size_t(CellOverlaps<Dim>::values));
+  std::vector<double> values(static_cast<std::size_t>(CellOverlaps<Dim>::values));
   CellOverlaps<Dim>::describe(places, values.data());
   return values;
 }

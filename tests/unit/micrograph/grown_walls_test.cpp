@@ -117,11 +117,10 @@ TEST_F(RingOfTwoGrays, GrowsAndShrinksToTheDensityAskedFor)
 TEST_F(RingOfTwoGrays, StaysAsItIsWhereAThresholdGivesTheDensity)
 {
   EXPECT_EQ(aimed_at(share(0)).picture()->growth, 0);
-  EXPECT_EQ(aimed_at(share(0)).densities()[0].value,
-            [&] {
-              scene_.specimen.micrograph->threshold_rule = ThresholdRule::otsu;
-              return built(scene_).densities()[0].value;
-            }());
+  EXPECT_EQ(aimed_at(share(0)).densities()[0].value, [&] {
+    scene_.specimen.micrograph->threshold_rule = ThresholdRule::otsu;
+    return built(scene_).densities()[0].value;
+  }());
 }
 
 TEST_F(RingOfTwoGrays, IsTheSameOnAnyNumberOfParts)

@@ -142,7 +142,7 @@ def scatter(study):
             rest = tuple((name, value) for name, value in run["settings"].items() if name != key)
             groups.setdefault(rest, []).append(run)
     rows = []
-    for rest, runs in groups.items():
+    for runs in groups.values():
         if len(runs) < 2:
             continue
         shared = [word for word in runs[0]["label"].split(", ")
