@@ -162,9 +162,11 @@ Group largest_over_parts(const Group& own, const Share& share)
   all[std::size_t(share.part) * 2 + 1] = double(own.first);
   share.sum(all);
   Group largest = own;
-  for (std::size_t at = 0; at < all.size(); at += 2)
-    if (const Group group{GlobalIndex(all[at + 1]), all[at]}; is_larger(group, largest))
-      largest = group;
+  for (std::size_t at = 0; at < all.size(); at += 2) {
+    if (all[at] == 0) continue;  // a part without wall: its place is none that a number can hold
+    const Group group{GlobalIndex(all[at + 1]), all[at]};
+    if (is_larger(group, largest)) largest = group;
+  }
   return largest;
 }
 

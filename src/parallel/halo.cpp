@@ -110,6 +110,7 @@ void Halo::end()
 
 bool Halo::untouched() const
 {
+  if (width_ == 0) return true;
   std::vector<double> now(width_);
   for (std::size_t k = 0; k < shared_.nodes.size(); ++k) {
     read(shared_.nodes[k], now.data());
