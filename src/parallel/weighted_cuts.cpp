@@ -25,16 +25,16 @@ std::vector<LocalIndex> weighted_parts(LocalIndex nodes, int parts,
   }
   std::vector<LocalIndex> starts{0};
   LocalIndex start = 0;
-  for (int p = 0; p < parts; ++p) {
+  for (int p = 0; p < parts - 1; ++p) {
     const double target = sum[nodes] * (p + 1) / parts;
     LocalIndex end = LocalIndex(std::ranges::lower_bound(sum, target) - sum.begin());
     // Of the two cuts around the target, the nearer.
     if (end > start + 1 && target - sum[end - 1] < sum[end] - target) --end;
     end = std::clamp(end, start + smallest_part, nodes - (parts - 1 - p) * smallest_part);
-    if (p == parts - 1) end = nodes;
     starts.push_back(end);
     start = end;
   }
+  starts.push_back(nodes);
   return starts;
 }
 

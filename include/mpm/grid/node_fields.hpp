@@ -104,12 +104,12 @@ class NodeFields {
   NodeColumn mass_column()
   {
     if constexpr (mass_slot)
-      return {momentum_force.data() + *mass_slot, record_width, 1};
+      return {slot_of_records(*mass_slot), record_width, 1};
     else
       return {mass.data(), 1, 1};
   }
   NodeColumn momentum_column() { return {momentum_force.data(), record_width, Dim}; }
-  NodeColumn force_column() { return {momentum_force.data() + Dim, record_width, Dim}; }
+  NodeColumn force_column() { return {slot_of_records(Dim), record_width, Dim}; }
   NodeColumn momentum_force_column() { return {momentum_force.data(), record_width, 2 * Dim}; }
   NodeColumn load_force_column() { return {load_force.data(), Dim, Dim}; }
   NodeColumn surface_column() { return {surface.data(), surface_width, surface_width}; }
@@ -129,6 +129,12 @@ class NodeFields {
   LaneVector<double> surface;            ///< kg m and kg m^2, as in `surface_of`, or empty
 
  private:
+  /// Of the first node's record; null on a rank without nodes.
+  double* slot_of_records(int slot)
+  {
+    return momentum_force.empty() ? nullptr : momentum_force.data() + slot;
+  }
+
   double mass_cut_;
 };
 
