@@ -277,7 +277,7 @@ class Report(ProgramTest):
             self.assertIn(words, text)
         pictures = {path.name for path in (folder / "report").iterdir()}
         self.assertLessEqual({"one_curves.svg", "two_curves.png"}, pictures)
-        self.assertTrue(any(name.startswith("two_2_plastic_work") for name in pictures), pictures)
+        self.assertTrue(any(name.startswith("two_3_plastic_work") for name in pictures), pictures)
         refused = mpm_report(folder, "--at", "5%")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("holds studies", refused.stderr)
