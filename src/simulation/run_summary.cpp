@@ -19,14 +19,13 @@ void describe(const Preparation<Dim>& preparation, output::Summary& summary)
   summary.set("title", preparation.scene.title);
   summary.set("dimensions", Dim);
   summary.set("relative_density", specimen.densities().front().value);
-  if (specimen.picture()) {
-    summary.set("picture_relative_density", specimen.picture()->density);
-    const micrograph::PictureFigures& picture = *specimen.picture();
+  if (const auto& picture = specimen.picture()) {
+    summary.set("picture_relative_density", picture->density);
     // With bands there is none, and where walls were grown it is no gray of the picture.
-    const bool is_gray = picture.threshold != 0 && picture.growth == 0;
-    summary.set("threshold", is_gray ? std::optional(picture.threshold) : std::nullopt);
-    summary.set("wall_growth", picture.growth);
-    summary.set("removed_locations", specimen.picture()->removed);
+    const bool is_gray = picture->threshold != 0 && picture->growth == 0;
+    summary.set("threshold", is_gray ? std::optional(picture->threshold) : std::nullopt);
+    summary.set("wall_growth", picture->growth);
+    summary.set("removed_locations", picture->removed);
   }
   summary.set("bulk_density", specimen.densities().front().bulk_density);
   for (std::size_t k = 1; k < specimen.densities().size(); ++k)

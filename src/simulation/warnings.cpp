@@ -56,8 +56,8 @@ void look_at_growth(const micrograph::Specimen<Dim>& specimen, Warnings& warning
   const double growth = specimen.picture()->growth;
   warnings.push_back(
       fmt::format("no threshold of the picture gives the density asked for: its walls were made {} "
-                  "by {:.2g} um "
-                  "all around. Check the picture, specimen.wall and the density, or accept it.",
+                  "by {:.2g} um all around. Check the picture, specimen.wall and the density, or "
+                  "accept it.",
                   growth > 0 ? "thicker" : "thinner", 1e6 * std::abs(growth)));
 }
 

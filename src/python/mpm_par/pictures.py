@@ -78,7 +78,7 @@ def _lines(axes, properties, top, end):
         axes.plot([100 * buckling["strain"], 100 * to],
                   [buckling["stress"] / 1e6, (buckling["stress"] + rise) / 1e6], ls=":",
                   label="plateau", **style)
-    if dense:
+    if dense and properties["densification_slope"] > 0:
         slope = properties["densification_slope"]
         reach = min(0.9 * top - dense["stress"], 4 * dense["stress"]) / slope
         axes.plot([100 * dense["strain"], 100 * (dense["strain"] + reach)],

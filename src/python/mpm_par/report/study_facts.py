@@ -145,8 +145,8 @@ def scatter(study):
     for runs in groups.values():
         if len(runs) < 2:
             continue
-        shared = [word for word in runs[0]["label"].split(", ")
-                  if all(word in run["label"].split(", ") for run in runs)]
+        words = [name_of(study, run).split(", ") for run in runs]
+        shared = [word for word in words[0] if all(word in others for others in words)]
         rows.append([", ".join(shared) or "all", str(len(runs)),
                      *(_spread(measure, runs) for measure in measures)])
     return ["runs", "specimens", *map(title, measures)], rows
