@@ -131,6 +131,7 @@ void Exchange<Dim>::move_and_sum(Bodies& bodies, std::span<const NodeColumn> col
   halo_.begin(columns, migration_.notes());
   visit_interior(bodies, visit);
   note_losses();
+  note_far_moves(bodies, moment, dt);
   MPM_ASSERT(loss_ || halo_.untouched());
   halo_.end();
   exchange_leavers(bodies);
@@ -153,6 +154,25 @@ void Exchange<Dim>::note_loss(const Body<Dim>& body, const LostParticle<Dim>& lo
                               const Moment& moment)
 {
   if (!loss_) loss_ = Loss<Dim>{lost, body.name, moment};
+}
+
+/// Sums of a step in which a particle went further than its last speed announced miss a part of it:
+/// the fastest of this rank is named.
+template <int Dim>
+void Exchange<Dim>::note_far_moves(const Bodies& bodies, const Moment& moment, double dt)
+{
+  const double allowed = topology_.geometry().smallest_spacing();
+  if (loss_ || moved_since_sort_ + largest_speed_ * dt <= allowed) return;
+  std::optional<LostParticle<Dim>> fastest;
+  const Body<Dim>* its_body = nullptr;
+  for (const Body<Dim>& body : bodies)
+    for (LocalIndex p = 0; p < body.particles.size(); ++p) {
+      const LostParticle<Dim> particle = lost_particle<Dim>(body.particles, p);
+      if (fastest && !(particle.velocity.norm() > fastest->velocity.norm())) continue;
+      fastest = particle;
+      its_body = &body;
+    }
+  if (fastest) note_loss(*its_body, *fastest, moment);
 }
 
 /// Only particles near other ranks, or near the seam of a periodic axis, can leave.

@@ -23,7 +23,7 @@ specimen:
     - box: {lower: [0 mm, 0 mm], upper: [1 mm, 1 mm]}
 grid: {cells: [10, 10], margin: [2 mm, 2 mm, 0 mm, 0 mm]}
 numerics: {cfl: 1.4, update_order: ORDER}
-loads: [{kind: body_force, acceleration: ["x < 0.00055 ? 6e9 : -6e9", 0]}]
+loads: [{kind: body_force, acceleration: ["x < 0.00055 ? PULL : -PULL", 0]}]
 free_motion: {end_time: 20 us, sides: [free, free, symmetric, symmetric]}
 output: {snapshots: 0}
 """
@@ -147,17 +147,25 @@ class Failure(ProgramTest):
         times = History(self.folder / "results")["time"]
         self.assertEqual(times, sorted(set(times)))
 
-    def test_a_particle_turned_inside_out_is_named(self):
-        # Two halves are thrown at each other within a step: dv/dx dt is below -1 between them. With
-        # usf the stress sees those velocities only once the particles are past each other.
-        for order, fault in (("musl", r"particle \d+ of body 'cell_wall' was turned inside out, "
-                                      r"det\(I \+ dt L\) = -"),
-                             ("usl", r"was turned inside out"), ("usf", r"the energy has grown by")):
-            file = self.folder / f"squeezed_{order}.yaml"
-            file.write_text(SQUEEZED.replace("ORDER", order))
-            run = mpm_par(file, "--output", self.folder / order, ranks=2)
-            self.assertEqual(run.returncode, 3, run.stderr + run.stdout)
-            self.assertRegex(run.stderr, fault)
+    def test_particles_that_meet_within_a_step_are_named(self):
+        # Two halves are thrown at each other: dv/dx dt is below -1 between them where the stress sees
+        # the new velocities. Below that it is only pressed beyond reason; above it, they go further
+        # than the cell for which ranks have looked ahead, on one rank as on two.
+        inside_out = (r"particle \d+ of body 'cell_wall' was turned inside out, "
+                      r"det\(I \+ dt L\) = -")
+        too_far = r"particle \d+ of body 'cell_wall' moved by more than a cell in one step"
+        for order, acceleration, fault in (
+                ("musl", "5.05e9", inside_out), ("usl", "5.05e9", inside_out),
+                ("musl", "4.5e9", "the energy has grown by"),
+                ("usf", "6e9", too_far), ("usavg", "6e9", too_far)):
+            for ranks in 1, 2:
+                with self.subTest(order=order, acceleration=acceleration, ranks=ranks):
+                    file = self.folder / "squeezed.yaml"
+                    file.write_text(SQUEEZED.replace("ORDER", order).replace("PULL", acceleration))
+                    run = mpm_par(file, "--overwrite", "--output", self.folder / "squeezed",
+                                  ranks=ranks)
+                    self.assertEqual(run.returncode, 3, run.stderr + run.stdout)
+                    self.assertRegex(run.stderr, fault)
 
     def test_work_that_is_given_back_stops_nothing(self):
         file = self.folder / "to_and_fro.yaml"

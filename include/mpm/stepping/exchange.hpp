@@ -68,6 +68,7 @@ class Exchange {
   void visit_near(Bodies& bodies, const PartVisit& visit);
   /// With a look after the messages from time to time.
   void visit_interior(Bodies& bodies, const PartVisit& visit);
+  void note_far_moves(const Bodies& bodies, const Moment& moment, double dt);
   void collect_leavers(Bodies& bodies, const Moment& moment);
   void exchange_leavers(Bodies& bodies);
   void mark_near_walls();
