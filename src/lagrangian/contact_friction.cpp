@@ -127,14 +127,14 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double dt,
 {
   take_motion(fields);
   constexpr std::size_t width = corners_of_cell * values_per_corner<Dim>;
-  for (std::size_t entry = 0; entry < found_.size(); ++entry) {
-    const LocalIndex a = cell_of(entry, 0), b = cell_of(entry, 1);
+  for_each_overlap([&](std::size_t entry, const Pressing& pair) {
+    const auto [a, b] = pair.cells;
     const double coefficient = bodies_.friction(of_body_[std::size_t(a)], of_body_[std::size_t(b)]);
-    if (!(found_.overlap(entry) > 0) || coefficient == 0) continue;
+    if (coefficient == 0) return;
     const OverlapSlopes<Dim> of_one = found_.slopes(entry, 0), of_other = found_.slopes(entry, 1);
     const Vec<Dim> slope = of_one.together();
     const double face = length_of(slope);
-    if (!(face > 0)) continue;
+    if (!(face > 0)) return;
     const Vec<Dim> normal = slope / face;
     const Vec<Dim> direction = normal / face;
     const Shares<Dim> one(of_one, direction), other(of_other, -direction);
@@ -147,9 +147,9 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double dt,
         slip[t] +=
             (one.velocity(moving, d) - other.velocity(against, d)) * tangents[std::size_t(t)][d];
     const double speed = slip.norm();
-    if (!(speed > 0)) continue;
+    if (!(speed > 0)) return;
     const double mobility = one.mobility(moving) + other.mobility(against);
-    const double most = coefficient * pressure(found_.pair(entry)) * face;
+    const double most = coefficient * pair.pressure * face;
     const Vec<Dim - 1> push =
         -std::min(most, stopped_at_once<Dim> * speed / (mobility * dt)) * (slip / speed);
     const auto add = [&](LocalIndex cell, OverlapSlopes<Dim> slopes, double sign) {
@@ -168,7 +168,7 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double dt,
     };
     add(a, of_one, 1);
     add(b, of_other, -1);
-  }
+  });
 }
 
 template void OverlapContact<2>::take_motion(const NodeFields<2>&);

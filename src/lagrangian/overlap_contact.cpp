@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 namespace mpm {
@@ -71,30 +72,40 @@ void OverlapContact<Dim>::list_close()
   }
   boxes_then_ = boxes_;
   close_.clear();
-  for (std::size_t k = 0; k < pairs_.size(); ++k)
-    if (meet<Dim>(boxes_[std::size_t(pairs_[k].first)], boxes_[std::size_t(pairs_[k].second)],
-                  distance))
-      close_.push_back(LocalIndex(k));
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    auto [a, b] = pairs_[k];
+    if (!meet<Dim>(boxes_[std::size_t(a)], boxes_[std::size_t(b)], distance)) continue;
+    if (turned_[k]) std::swap(a, b);
+    close_.push_back({{a, b}, LocalIndex(k), touched_at_[k]});
+  }
 }
 
 template <int Dim>
 void OverlapContact<Dim>::find_overlaps()
 {
   near_.clear();
-  for (const LocalIndex k : close_) {
-    auto [a, b] = pairs_[std::size_t(k)];
-    if (!meet<Dim>(boxes_[std::size_t(a)], boxes_[std::size_t(b)], 0)) continue;
-    if (turned_[std::size_t(k)]) std::swap(a, b);
-    near_.push_back({std::size_t(k), values_of(a), values_of(b)});
+  for (std::size_t k = 0; k < close_.size(); ++k) {
+    const auto [a, b] = close_[k].cells;
+    if (meet<Dim>(boxes_[std::size_t(a)], boxes_[std::size_t(b)], 0))
+      near_.push_back({k, values_of(a), values_of(b)});
   }
-  // Of the others they are 0.
-  for (std::size_t entry = 0; entry < found_.size(); ++entry)
-    overlaps_[found_.pair(entry)] = faces_[found_.pair(entry)] = 0;
   found_.find(near_);
-  for (std::size_t entry = 0; entry < found_.size(); ++entry) {
-    if (!(found_.overlap(entry) > 0)) continue;
-    overlaps_[found_.pair(entry)] += found_.overlap(entry);
-    faces_[found_.pair(entry)] += found_.face(entry);
+  pressing_.clear();
+  for (std::size_t entry = 0; entry < found_.size();) {
+    const std::size_t k = found_.pair(entry);
+    double overlap = 0, face = 0;
+    for (; entry < found_.size() && found_.pair(entry) == k; ++entry)
+      if (found_.overlap(entry) > 0) {
+        overlap += found_.overlap(entry);
+        face += found_.face(entry);
+      }
+    if (!(overlap > 0)) continue;
+    Close& pair = close_[k];
+    if (pair.touched < 0) {
+      pair.touched = touched_at_[std::size_t(pair.pair)] = LocalIndex(touched_.size());
+      touched_.push_back({pair.cells, pair.pair, {}, {}});
+    }
+    pressing_.push_back({pair.cells, LocalIndex(k), pair.touched, overlap, face});
   }
 }
 
@@ -108,47 +119,51 @@ void OverlapContact<Dim>::measure(const MeshNodes<Dim>& nodes)
   find_boxes();
   list_close();
   find_overlaps();
-  for (const Touch& touch : touches_) sides_[std::size_t(touch.side)] = 0;
   list_touches();
   energy_ = 0;
   const std::vector<LocalIndex>& first = first_touch_;
   for (std::size_t c = 0; c < cells_.size(); ++c)
     if (first[c] < first[c + 1])
       answer_overlaps(c, {&touches_[std::size_t(first[c])], std::size_t(first[c + 1] - first[c])});
-  side_ghosts_.update(sides_, 1);
+  trade_answers();
 }
 
+/// Of this rank's cells, by cell.
 template <int Dim>
 void OverlapContact<Dim>::list_touches()
 {
   std::vector<LocalIndex>& first = first_touch_;
   first.assign(cells_.size() + 1, 0);
-  touching_ = 0;
-  const auto for_each_touching = [&](const auto& visit) {
-    for (std::size_t entry = 0; entry < found_.size(); ++entry) {
-      const std::size_t k = found_.pair(entry);
-      if (overlaps_[k] > 0 && is_last_of_pair(entry)) visit(k, pairs_[k]);
-    }
-  };
-  for_each_touching([&](std::size_t k, const Pair& pair) {
-    if (!was_touching_[k]) {
-      was_touching_[k] = 1;
-      touched_.push_back(LocalIndex(k));
-    }
-    ++first[std::size_t(pair.first)];
-    if (pair.second < cells()) ++first[std::size_t(pair.second)];
-    touching_ += pair.second < cells() ? 2 : 1;
-  });
+  for (const Pressing& pair : pressing_)
+    for (const LocalIndex cell : pair.cells)
+      if (cell < cells()) ++first[std::size_t(cell)];
   std::exclusive_scan(first.begin(), first.end(), first.begin(), 0);
   touches_.resize(std::size_t(first.back()));
-  std::vector<LocalIndex> next(first.begin(), first.end() - 1);
-  for_each_touching([&](std::size_t k, const Pair& pair) {
-    const double overlap = overlaps_[k], face = faces_[k];
-    touches_[std::size_t(next[std::size_t(pair.first)]++)] = {pair.second, LocalIndex(k), overlap,
-                                                              face};
-    if (pair.second < cells())
-      touches_[std::size_t(next[std::size_t(pair.second)]++)] = {pair.first, second_side_[k],
-                                                                 overlap, face};
+  next_touch_.assign(first.begin(), first.end() - 1);
+  LocalIndex number = 0;
+  for (const Pressing& pair : pressing_)
+    for (const std::size_t side : {0, 1}) {
+      const LocalIndex cell = pair.cells[side];
+      if (cell < cells())
+        touches_[std::size_t(next_touch_[std::size_t(cell)]++)] = {pair.cells[1 - side], number,
+                                                                   pair.overlap, pair.face};
+      ++number;
+    }
+}
+
+/// Of pairs with cells of other ranks.
+template <int Dim>
+void OverlapContact<Dim>::trade_answers()
+{
+  const auto for_each_shared = [&](const auto& visit) {
+    for (Pressing& pair : pressing_)
+      if (is_with_a_copy(pair.cells)) visit(pair, std::size_t(close_[pair.close].pair));
+  };
+  for_each_shared([&](const Pressing& pair, std::size_t k) { sides_[k] = pair.pressure; });
+  side_ghosts_.update(sides_, 1);
+  for_each_shared([&](Pressing& pair, std::size_t k) {
+    pair.pressure += sides_[std::size_t(other_side_[k])];
+    sides_[k] = 0;
   });
 }
 
@@ -166,51 +181,52 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
   const double squeezed = bears_less ? volume / cells_[cell].volume : rigid ? 1.0 : least_squeezed;
   const double whole = 1 / (squeezed * cell_volume_), side = 1 / (squeezed * squeezed * cell_face_);
   parts_.resize(count);
-  beside_.resize(count * count);
+  beside_.clear();
   for (std::size_t k = 0; k < count; ++k) {
     const OverlapShare share(touches[k].overlap * whole);
-    parts_[k].share = share.value;
-    parts_[k].slope = share.slope;
-    beside_[k * count + k] = 1;
-    for (std::size_t j = 0; j < k; ++j)
-      beside_[k * count + j] = beside_[j * count + k] =
-          are_of_one_wall(touches[j].other, touches[k].other);
+    Part& part = parts_[k];
+    part.location = locations_[std::size_t(touches[k].other)];
+    part.share = share.value;
+    part.slope = share.slope;
+    part.together = share.value;
+    part.face = touches[k].face;
+    for (std::size_t j = 0; j < k; ++j) {
+      Part& other = parts_[j];
+      if (!are_of_one_wall(part.location, other.location)) continue;
+      beside_.push_back({j, k});
+      part.together += other.share;
+      part.face += touches[j].face;
+      other.together += part.share;
+      other.face += touches[k].face;
+    }
   }
   for (std::size_t k = 0; k < count; ++k) {
-    const double* beside = &beside_[k * count];
-    double together = 0, face = 0;
-    for (std::size_t j = 0; j < count; ++j) {
-      together += beside[j] * parts_[j].share;
-      face += beside[j] * touches[j].face;
-    }
     Part& part = parts_[k];
-    const OverlapPotential potential(together);
+    const OverlapPotential potential(part.together);
     const double of_other = rigid ? stiffness_[std::size_t(touches[k].other)] : 1.0;
-    part.own = of_other * potential.part;
+    part.answer = of_other * potential.part;
     part.change = of_other * part.share * potential.slope;
-    energy_ += stiffness * cell_volume_ * part.share * part.own;
-    if (!(together > 0)) continue;
-    double* largest = &presses_[2 * std::size_t(touches[k].side)];
-    largest[0] = std::max(largest[0], OverlapPotential::stiffness(together) * face * side);
-    largest[1] = std::max(largest[1], part.share / together);
+    energy_ += stiffness * cell_volume_ * part.share * part.answer;
+    part.answer += part.change;
+    if (!(part.together > 0)) continue;
+    const auto [pressing, of] = std::div(touches[k].pressing, 2);
+    Touched& largest = touched_[std::size_t(pressing_[std::size_t(pressing)].touched)];
+    largest.stiffness[of] = std::max(largest.stiffness[of],
+                                     OverlapPotential::stiffness(part.together) * part.face * side);
+    largest.share[of] = std::max(largest.share[of], part.share / part.together);
+  }
+  for (const auto& [j, k] : beside_) {
+    parts_[j].answer += parts_[k].change;
+    parts_[k].answer += parts_[j].change;
   }
   const double answer = stiffness / squeezed;
   double work = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    double slope = parts_[k].own;
-    for (std::size_t j = 0; j < count; ++j) slope += beside_[k * count + j] * parts_[j].change;
-    slope *= answer * parts_[k].slope;
-    sides_[std::size_t(touches[k].side)] = slope;
+    const double slope = answer * parts_[k].answer * parts_[k].slope;
+    pressing_[std::size_t(touches[k].pressing / 2)].pressure += slope;
     work += slope * touches[k].overlap;
   }
   swelling_[cell] = bears_less ? work / volume : 0;
-}
-
-/// Whether cells are so near in the lattice that what a third one presses them with adds up.
-template <int Dim>
-bool OverlapContact<Dim>::are_of_one_wall(LocalIndex a, LocalIndex b) const
-{
-  return apart(a, b).cwiseAbs().maxCoeff() <= 2;
 }
 
 template <int Dim>
@@ -225,14 +241,12 @@ void OverlapContact<Dim>::add_forces(NodeFields<Dim>& fields) const
       for (int d = 0; d < Dim; ++d) force[d] += pressure * slopes.by[c][d];
     }
   };
-  for (std::size_t entry = 0; entry < found_.size(); ++entry) {
-    if (!(found_.overlap(entry) > 0)) continue;
-    const double pressure = this->pressure(found_.pair(entry));
+  for_each_overlap([&](std::size_t entry, const Pressing& pair) {
     for (const int side : {0, 1}) {
-      const LocalIndex cell = cell_of(entry, side);
-      if (cell < cells()) push(cell, found_.slopes(entry, side), -pressure);
+      const LocalIndex cell = pair.cells[std::size_t(side)];
+      if (cell < cells()) push(cell, found_.slopes(entry, side), -pair.pressure);
     }
-  }
+  });
   for (LocalIndex cell = 0; cell < cells(); ++cell) {
     const auto c = std::size_t(cell);
     if (first_touch_[c] < first_touch_[c + 1])
@@ -260,15 +274,24 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
   // Faces that meet between two checks would press long before their cells are heavier: those that
   // may are taken to press twice as hard as flush ones do at first.
   constexpr double expected = 2;
-  side_ghosts_.update(presses_, 2);
+  std::vector<double> told(2 * sides_.size(), 0.0);  // of both values, as sides_
+  for (const Touched& pair : touched_)
+    for (const std::size_t side : {0, 1})
+      if (pair.cells[side] < cells() && pair.cells[1 - side] >= cells()) {
+        told[2 * std::size_t(pair.pair)] = pair.stiffness[side];
+        told[2 * std::size_t(pair.pair) + 1] = pair.share[side];
+      }
+  side_ghosts_.update(told, 2);
   std::vector<double> pressed(cells_.size(), 0.0);
-  for (const LocalIndex pair : touched_) {
-    const auto k = std::size_t(pair), other = std::size_t(second_side_[k]);
-    const double both = 0.5 * (presses_[2 * k] + presses_[2 * other]);
-    pressed[std::size_t(pairs_[k].first)] += presses_[2 * k + 1] * both;
-    if (pairs_[k].second < cells())
-      pressed[std::size_t(pairs_[k].second)] += presses_[2 * other + 1] * both;
-  }
+  for (const Touched& pair : touched_)
+    for (const std::size_t side : {0, 1}) {
+      if (pair.cells[side] >= cells()) continue;
+      const double other = pair.cells[1 - side] < cells()
+                               ? pair.stiffness[1 - side]
+                               : told[2 * std::size_t(other_side_[std::size_t(pair.pair)])];
+      pressed[std::size_t(pair.cells[side])] +=
+          pair.share[side] * 0.5 * (pair.stiffness[side] + other);
+    }
   for (const Pair& pair : pairs_) {
     if (!can_press(pair, way)) continue;
     for (const LocalIndex cell : {pair.first, pair.second})
@@ -287,13 +310,9 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
 template <int Dim>
 void OverlapContact<Dim>::forget_stiffness()
 {
-  for (const LocalIndex pair : touched_) {
-    const auto k = std::size_t(pair), other = std::size_t(second_side_[k]);
-    std::fill_n(&presses_[2 * k], 2, 0.0);
-    std::fill_n(&presses_[2 * other], 2, 0.0);
-    was_touching_[k] = 0;
-  }
+  for (const Touched& pair : touched_) touched_at_[std::size_t(pair.pair)] = -1;
   touched_.clear();
+  for (Close& pair : close_) pair.touched = -1;
 }
 
 template <int Dim>

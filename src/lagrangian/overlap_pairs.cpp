@@ -57,12 +57,12 @@ void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
   keep_needed(std::move(peers));
   // Nothing is known of these pairs.
   found_.find({});
+  pressing_.clear();
   touches_.clear();
   touched_.clear();
-  was_touching_.assign(pairs_.size(), 0);
+  touched_at_.assign(pairs_.size(), -1);
+  close_.clear();
   boxes_then_.clear();
-  overlaps_.assign(pairs_.size(), 0.0);
-  faces_.assign(pairs_.size(), 0.0);
 }
 
 template <int Dim>
@@ -235,10 +235,8 @@ void OverlapContact<Dim>::keep_needed(std::vector<Ghosts::Peer> peers)
   for (std::size_t k = 0; k < pairs_.size(); ++k)
     pairs_of[std::size_t(pairs_[k].second)].push_back(LocalIndex(k));
   const auto count = LocalIndex(pairs_.size());
-  second_side_.assign(pairs_.size(), 0);
-  LocalIndex next_side = count + 1;  // behind the first sides and a zero
-  for (LocalIndex c = 0; c < cells(); ++c)
-    for (const LocalIndex k : pairs_of[std::size_t(c)]) second_side_[std::size_t(k)] = next_side++;
+  other_side_.assign(pairs_.size(), count);
+  LocalIndex next_side = count + 1;  // behind this rank's sides and a zero
 
   std::vector<std::vector<double>> out(peers.size());
   std::vector<Ghosts::Peer> sides(peers.size());
@@ -257,7 +255,7 @@ void OverlapContact<Dim>::keep_needed(std::vector<Ghosts::Peer> peers)
         const IndexVec<Dim>& at = locations_[std::size_t(pairs_[std::size_t(pair)].first)];
         list.insert(list.end(), at.begin(), at.end());
         pairs_[std::size_t(pair)].second = next;
-        second_side_[std::size_t(pair)] = next_side++;
+        other_side_[std::size_t(pair)] = next_side++;
       }
       stiffness_[std::size_t(next)] = stiffness_[ghost];
       locations_[std::size_t(next)] = locations_[ghost];
@@ -274,7 +272,6 @@ void OverlapContact<Dim>::keep_needed(std::vector<Ghosts::Peer> peers)
   images_.resize(std::size_t(next));
   values_.resize(std::size_t(next) * Overlaps::values);
   sides_.assign(std::size_t(next_side), 0.0);
-  presses_.assign(2 * std::size_t(next_side), 0.0);
   answer(peers, traded_over_ranks(comm_, out), sides);
   ghosts_.set(std::move(peers));
   side_ghosts_.set(std::move(sides));

@@ -84,7 +84,7 @@ bool CellOverlaps<2>::closes_on(const double* a, const double* b, const IndexVec
       const std::size_t next = (side + 1) % 4;
       const double dx = b[next] - b[side], dy = b[next + 4] - b[side + 4];
       most = std::max(most, ((a[corner] - b[side]) * dy - (a[corner + 4] - b[side + 4]) * dx) /
-                                std::hypot(dx, dy));
+                                std::sqrt(dx * dx + dy * dy));
     }
     return most;
   };

@@ -8,6 +8,7 @@
 #include <mpm/lagrangian/self_contact.hpp>
 #include <mpm/parallel/ghosts.hpp>
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -55,7 +56,7 @@ class OverlapContact final : public SelfContact<Dim> {
   void forget_stiffness() override;
   double energy() const override { return energy_; }
   double overlapped_area() const override;
-  GlobalIndex touching() const override { return touching_; }
+  GlobalIndex touching() const override { return GlobalIndex(touches_.size()); }
 
   GlobalIndex messages() const override { return ghosts_.messages() + side_ghosts_.messages(); }
   GlobalIndex bytes_sent() const override
@@ -92,9 +93,9 @@ class OverlapContact final : public SelfContact<Dim> {
     return outline < 0 ? nullptr : &outlines_[std::size_t(outline)];
   }
   /// In locations, the short way around where an axis is periodic.
-  IndexVec<Dim> apart(LocalIndex from, LocalIndex to) const
+  IndexVec<Dim> apart(const IndexVec<Dim>& from, const IndexVec<Dim>& to) const
   {
-    IndexVec<Dim> apart = locations_[std::size_t(to)] - locations_[std::size_t(from)];
+    IndexVec<Dim> apart = to - from;
     for (int d = 0; d < Dim; ++d)
       if (period_[d] > 0) {
         if (apart[d] > period_[d] / 2) apart[d] -= period_[d];
@@ -102,9 +103,17 @@ class OverlapContact final : public SelfContact<Dim> {
       }
     return apart;
   }
+  IndexVec<Dim> apart(LocalIndex from, LocalIndex to) const
+  {
+    return apart(locations_[std::size_t(from)], locations_[std::size_t(to)]);
+  }
+  /// Whether what a third cell presses two of these locations with adds up.
+  bool are_of_one_wall(const IndexVec<Dim>& a, const IndexVec<Dim>& b) const
+  {
+    return apart(a, b).cwiseAbs().maxCoeff() <= 2;
+  }
   bool can_meet(LocalIndex own, LocalIndex other) const;
   bool can_press(const Pair& pair, double way) const;
-  bool are_of_one_wall(LocalIndex a, LocalIndex b) const;
   void find_boxes();
   bool is_there(int image) const;
   Vec<Dim> shift_of(int image) const;
@@ -117,35 +126,65 @@ class OverlapContact final : public SelfContact<Dim> {
   void list_close();
   void find_overlaps();
   void list_touches();
-  bool is_last_of_pair(std::size_t entry) const
-  {
-    return entry + 1 == found_.size() || found_.pair(entry + 1) != found_.pair(entry);
-  }
-  /// Of an entry of found_: the cell on a side.
-  LocalIndex cell_of(std::size_t entry, int side) const
-  {
-    const Pair& pair = pairs_[found_.pair(entry)];
-    return (side == 0) == bool(turned_[found_.pair(entry)]) ? pair.second : pair.first;
-  }
   void take_motion(const NodeFields<Dim>& fields);
+
+  /// A listed pair whose boxes may meet before one has gone far.
+  struct Close {
+    /// In the order of their locations, so that both ranks of a pair find the same bits.
+    std::array<LocalIndex, 2> cells;
+    LocalIndex pair;     ///< among pairs_
+    LocalIndex touched;  ///< among touched_, or -1
+  };
+  /// A pair that has touched since the last check, and the largest of that time for either cell:
+  /// G'' times the face on which it is pressed over that of a cell; and the share that the other
+  /// cell has in what lies on this one's face.
+  struct Touched {
+    std::array<LocalIndex, 2> cells;
+    LocalIndex pair;
+    double stiffness[2], share[2];
+  };
+  /// A close pair that touches now. What every step goes through is kept together, and small: the
+  /// pairs that are listed do not fit into a processor's caches.
+  struct Pressing {
+    std::array<LocalIndex, 2> cells;
+    LocalIndex close, touched;
+    double overlap;       ///< m^3, in the plane m^2
+    double face;          ///< what the overlap gains per way of a cell, m^2 or m
+    double pressure = 0;  ///< of both cells' answers, Pa, in the plane N/m
+  };
+  /// visit(entry, pair) of found_, where it has an overlap.
+  template <class Visit>
+  void for_each_overlap(const Visit& visit) const
+  {
+    auto pair = pressing_.begin();
+    for (std::size_t entry = 0; entry < found_.size(); ++entry) {
+      if (!(found_.overlap(entry) > 0)) continue;
+      while (std::size_t(pair->close) != found_.pair(entry)) ++pair;
+      visit(entry, *pair);
+    }
+  }
+  bool is_with_a_copy(const std::array<LocalIndex, 2>& pair) const
+  {
+    return std::max(pair[0], pair[1]) >= cells();
+  }
 
   /// One cell of this rank in a pair that touches.
   struct Touch {
-    LocalIndex other, side;  ///< side: where in sides_
-    double overlap, face;    ///< as in overlaps_ and faces_
+    LocalIndex other;
+    LocalIndex pressing;  ///< twice the place in pressing_, and one more for its second cell
+    double overlap, face;
   };
-  /// Of a touch: what its overlap counts as, how that grows with the share, what it stores, and by
-  /// how much its neighbours' answers grow with it.
+  /// Of a touch: what its overlap counts as, how that grows with it, and with those of one wall
+  /// the sums of these and of faces.
   struct Part {
-    double share, slope, own, change;
+    IndexVec<Dim> location;  ///< of the other cell
+    double share, slope, together, face;
+    double answer;  ///< derivative of the energy by the share, over S_c V0
+    double change;  ///< by how much its neighbours' answers grow with its share
   };
   bool is_rigid(LocalIndex cell) const { return stiffness_[std::size_t(cell)] == 0; }
   void answer_overlaps(std::size_t cell, std::span<const Touch> touches);
-  /// What presses in a pair, of both its sides, Pa, in the plane N/m.
-  double pressure(std::size_t pair) const
-  {
-    return sides_[pair] + sides_[std::size_t(second_side_[pair])];
-  }
+  void trade_answers();
 
   MPI_Comm comm_;
   Ghosts ghosts_, side_ghosts_;
@@ -169,37 +208,29 @@ class OverlapContact final : public SelfContact<Dim> {
   std::vector<int> images_;
 
   std::vector<Pair> pairs_;
-  /// Whether the overlap is found as that of the second with the first: in the order of their
-  /// locations, so that both ranks of a pair find the same bits.
-  std::vector<char> turned_;
-  std::vector<LocalIndex> close_;   ///< pairs whose boxes may meet before one has gone far
+  std::vector<char> turned_;            ///< whether the second stands first in Close
+  std::vector<LocalIndex> touched_at_;  ///< of a pair among touched_, or -1
+  std::vector<Close> close_;
   std::vector<Box> boxes_then_;     ///< when those were listed
   std::vector<MeetingCells> near_;  ///< those whose boxes meet
   Overlaps found_;                  ///< theirs
-  std::vector<double> overlaps_;    ///< of all pairs, m^3, in the plane m^2
-  std::vector<double> faces_;       ///< what one cell's overlap gains per way of it, m^2 or m
-  /// Of every pair what its first cell answers with, the derivative of its energy by the overlap,
-  /// Pa or N/m, a zero, and the second cells' as `second_side_` has them: other ranks' last.
+  std::vector<Pressing> pressing_;  ///< in the order of found_
+  std::vector<Touched> touched_;
+  /// What ranks tell each other of a pair: of each this rank's, a zero, then the other ranks' as
+  /// `other_side_` has them. All are 0 but for a moment.
   std::vector<double> sides_;
-  std::vector<LocalIndex> second_side_;
-  std::vector<Part> parts_;     ///< of the touches of one cell, for a moment
-  std::vector<double> beside_;  ///< [touch, touch]: 1 if they are of one wall
-  std::vector<Touch> touches_;  ///< of cell c from first_touch_[c] on
-  std::vector<LocalIndex> first_touch_;
+  std::vector<LocalIndex> other_side_;
+  std::vector<Part> parts_;                         ///< of the touches of one cell, for a moment
+  std::vector<std::array<std::size_t, 2>> beside_;  ///< those of one wall
+  std::vector<Touch> touches_;                      ///< of cell c from first_touch_[c] on
+  std::vector<LocalIndex> first_touch_, next_touch_;
   std::vector<double> motion_;         ///< of the cells' corners, with friction
   std::vector<Vec<Dim>> places_then_;  ///< of nodes, m, when the pairs were found
-  GlobalIndex touching_ = 0;
-  double energy_ = 0;  ///< J, of this rank's cells
+  double energy_ = 0;                  ///< J, of this rank's cells
   double kappa_;
   /// Of cells that touch, the derivative of the energy by their volume, with its sign turned, Pa or
   /// N/m.
   std::vector<double> swelling_;
-  std::vector<LocalIndex> touched_;  ///< pairs that have touched since the last check
-  std::vector<char> was_touching_;   ///< whether a pair is among them
-  /// [2 * side], sides as in sides_, the largest since the last check: G'' times the face on which
-  /// it presses over that of a cell; and the share that the other cell has in what lies on this
-  /// one's face.
-  std::vector<double> presses_;
 };
 
 }  // namespace mpm
