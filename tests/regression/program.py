@@ -9,6 +9,7 @@ import sys
 import unittest
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from patience import seconds  # noqa: E402
 from scene_run import set_options  # noqa: E402
 
 SCENES = pathlib.Path(__file__).parent / "scenes"
@@ -19,7 +20,7 @@ def mpm_par(*arguments, ranks=1, folder=None, timeout=240):
     command = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks),
                os.environ["MPM_PAR"], *map(str, arguments)]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True,
-                          timeout=timeout)
+                          timeout=seconds(timeout))
 
 
 def scene(name):

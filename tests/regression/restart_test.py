@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from program import History, ProgramTest, mpm_par, set_options, summary
+from program import History, ProgramTest, mpm_par, seconds, set_options, summary
 from same_results import expect_same, files_of
 
 INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
@@ -103,7 +103,7 @@ class Restart(RunsToRestart):
             run = self.start(RING, folder, LASTING, ranks)
             self.wait_for_lines(folder, 10)
             run.send_signal(what)
-            _, errors = run.communicate(timeout=60)
+            _, errors = run.communicate(timeout=seconds(60))
             self.assertEqual(run.returncode, 75, errors)
             self.assertIn(f"signal {what.value}. Go on with --restart.", errors)
             self.assertEqual(len(self.checkpoints(folder)), 1)

@@ -5,7 +5,7 @@ import re
 import subprocess
 import unittest
 
-from program import ProgramTest, mpm_par
+from program import ProgramTest, mpm_par, seconds
 
 CHECKS = ["one MPI world", "cores", "messages", "folder", "HDF5", "updated step", "total step",
           "checkpoint", "speed"]
@@ -19,7 +19,7 @@ class SelfTest(ProgramTest):
     def alone(self, **environment):
         """Processes without a launcher."""
         return subprocess.run([os.environ["MPM_PAR"], "--self-test"], cwd=self.folder, text=True,
-                              capture_output=True, env={**os.environ, **environment}, timeout=120)
+                              capture_output=True, env={**os.environ, **environment}, timeout=seconds(120))
 
     def test_passes_and_leaves_nothing_behind(self):
         for ranks in 1, 2, 3:

@@ -18,7 +18,7 @@ import xml.etree.ElementTree
 import h5py
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "regression"))
-from program import set_options  # noqa: E402
+from program import seconds, set_options  # noqa: E402
 from same_results import difference, results_of  # noqa: E402
 
 INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
@@ -28,7 +28,7 @@ SETTINGS = ["numerics.formulation=total_lagrangian", "grid.cells=[28, 28]", "loa
             "loading.strain=30 %", "output.history_lines=120",
             "output.snapshots={strains: [0 %, 3 %, 6 %, 9 %, 12 %, 15 %, 18 %, 21 %, 24 %, 27 %, 29 %]}"]
 CHECKPOINTS = f"output.checkpoints={{steps: {EVERY}, keep: 3}}"
-PATIENCE = 180  # seconds until a run counts as hanging
+PATIENCE = seconds(180)  # until a run counts as hanging
 
 
 class Lost(Exception):
