@@ -1,10 +1,11 @@
-"""The key `known` of a study file: figures that others found for its runs, to stand beside them."""
+"""The key `known` of a study file: what others found for its runs, and how long theirs took."""
 import dataclasses
 
-from checked_keys import known
+from checked_keys import known, quantity
 from mpm_par.quantities import to_si
 
-KEYS = ("source", "runs")
+KEYS = ("source", "runs", "run_time")
+NEEDED = KEYS[:2]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -34,10 +35,20 @@ def _entry(node, varied, combinations, names):
     return Known(where, {name: _value(keys[name], name) for name in keys if name != "where"})
 
 
+def _run_time(node):
+    """[least, most], s."""
+    if not node.is_list or len(node.value) != 2:
+        raise node.wrong("known.run_time is no list of two", "Write e.g. [4 h, 100 h].")
+    least, most = (quantity(item, "known.run_time", "time", "[4 h, 100 h]") for item in node.value)
+    if least > most:
+        raise node.wrong("known.run_time falls", "Write the shorter one first.")
+    return [least, most]
+
+
 def read_known(node, varied, combinations, measures):
-    """(entries, source)."""
+    """(entries, source, run time or None)."""
     keys = known(node, KEYS, "known")
-    for key in KEYS:
+    for key in NEEDED:
         if key not in keys:
             raise node.wrong(f"known has no {key}", "Give it source: (a text) and runs: (a list).")
     if not keys["runs"].is_list:
@@ -45,4 +56,4 @@ def read_known(node, varied, combinations, measures):
                                  "Write e.g. - {where: {loading.piston: top}, modulus: 3252 MPa}.")
     names = [measure.name for measure in measures if measure.kind != "curve"]
     return [_entry(entry, varied, combinations, names) for entry in keys["runs"].value], \
-        keys["source"].text
+        keys["source"].text, _run_time(keys["run_time"]) if "run_time" in keys else None

@@ -47,6 +47,7 @@ class Study:
     targets: list
     known: list = dataclasses.field(default_factory=list)  # of known_values.Known
     known_source: str = ""  # where they stand
+    known_run_time: list = None  # [least, most] of the runs there, s
     quick: bool = False  # the quick variant of the file
 
     def assignments(self, combination):
@@ -142,7 +143,8 @@ def read_study(path, quick=False, ranks=1):
         if "time_limit" in keys else None,
         measures=measures, targets=[0.01, 0.001], quick=quick)
     if "known" in keys:
-        study.known, study.known_source = read_known(keys["known"], varied, combinations, measures)
+        study.known, study.known_source, study.known_run_time = read_known(
+            keys["known"], varied, combinations, measures)
     if "targets" in keys:
         node = keys["targets"]
         if not node.is_list or not node.value:

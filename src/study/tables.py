@@ -98,7 +98,8 @@ def json_text(study, rows, outcomes, provenance, output):
                 for name, value in _point(study, row, measure).items()},
              "remarks": row.remarks} for row in rows]
     return json.dumps({"title": study.title, "quick": study.quick, "along": study.along,
-                       "varied": study.varied, "known_source": study.known_source, "runs": runs,
+                       "varied": study.varied, "known_source": study.known_source,
+                       "known_run_time": study.known_run_time, "runs": runs,
                        "measures": measures, **provenance}, indent=1, allow_nan=False) + "\n"
 
 

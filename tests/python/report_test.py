@@ -246,7 +246,7 @@ class Report(ProgramTest):
                  "vary: {loading.piston: [right, top], specimen.threshold_shift: [0, 20]}\n"
                  "error: [{name: stress, mean: {strain: [1 %, 6 %]}},\n"
                  "        {name: modulus, of: compression.modulus}]\n"
-                 "known: {source: A book, runs: [{stress: 100 MPa}]}\n")
+                 "known: {source: A book, run_time: [1 h, 10 h], runs: [{stress: 100 MPa}]}\n")
         folder = self.folder / "studies"
         folder.mkdir()
         files = [folder / "one.yaml", folder / "two.yaml"]
@@ -262,6 +262,8 @@ class Report(ProgramTest):
         for run in runs:
             stress, found = run["value_stress"], open_run(folder / "one" / run["folder"])
             self.assertIn(f"{stress / 1e6:.4g} / 100 ({stress / 1e6 - 100:+.0f} %)", text)
+            faster = [float(format(hours * 3600 / run["wall_seconds"], ".2g")) for hours in (1, 10)]
+            self.assertIn("{:,.0f} to {:,.0f}".format(*faster), text)
             theory = foam.honeycomb(found.summary["relative_density"], 10.6e9, 500e6, True, 0.33)
             self.assertIn(f"{theory.plastic_collapse / 1e6:.4g}", text)
         by_key = {tuple(run["settings"].values()): run["value_stress"] for run in runs}
@@ -272,7 +274,7 @@ class Report(ProgramTest):
         self.assertNotEqual(*drawn)
         self.assertIn(f"{statistics.mean(drawn):.4g} ± {float(format(statistics.stdev(drawn), '.2g')):.4g} "
                       f"({min(drawn):.4g} to {max(drawn):.4g})", text)
-        for words in ("All 8 runs ended well", "Over drawn specimens", "Both directions of a wood.", "Foam theory",
+        for words in ("All 8 runs ended well", "times faster than 60 min to 10 h", "Over drawn specimens", "Both directions of a wood.", "Foam theory",
                       "What the threshold is worth", "one.yaml", "A book"):
             self.assertIn(words, text)
         pictures = {path.name for path in (folder / "report").iterdir()}

@@ -140,6 +140,14 @@ class Known(StudyFile):
         self.refused("2 GPa", "2 furlong", 12, "modulus is 2 furlong", "unknown unit", text=text)
         self.refused("  source: A paper\n", "", 10, "has no source", text=text)
 
+    def test_how_long_others_took_is_a_pair_of_times(self):
+        self.assertIsNone(self.read(GOOD + KNOWN).known_run_time)
+        text = GOOD + KNOWN.replace("  runs:", "  run_time: [4 h, 5 h]\n  runs:")
+        self.assertEqual(self.read(text).known_run_time, [4 * 3600, 5 * 3600])
+        for wrong, words in (("4 h", "no list of two"), ("[4 h]", "no list of two"),
+                             ("[4 m, 5 h]", "is a length, not a time"), ("[6 h, 5 h]", "falls")):
+            self.refused("[4 h, 5 h]", wrong, 11, "known.run_time", words, text=text)
+
 
 class Wrong(StudyFile):
     def test_keys(self):

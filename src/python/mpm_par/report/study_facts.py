@@ -79,11 +79,20 @@ def figures(study):
     return titles, rows
 
 
+def _times_faster(than, seconds):
+    """[least, most], s, over the seconds of a run, two digits each."""
+    return " to ".join(f"{float(format(known / seconds, '.2g')):,.0f}" for known in than)
+
+
 def beside_known(study):
-    """(titles, rows): found, known and the difference; no rows where nothing is known."""
+    """(titles, rows): found, known and the difference; no rows where nothing is known. Last how
+    many times faster the run was, where it is said how long those took."""
     measures = [measure for measure in numbers(study)
                 if any(run.get(f"known_{measure['name']}") for run in study.record["runs"])]
     titles = ["run", *map(title, measures)]
+    took = study.record.get("known_run_time")
+    if took:
+        titles.append(f"times faster than {clock(took[0])} to {clock(took[1])}")
     rows = []
     for run in study.record["runs"]:
         cells = []
@@ -95,6 +104,8 @@ def beside_known(study):
             found = "-" if value is None else shown(measure, value)
             apart = difference(value, known)
             cells.append(f"{found} / {shown(measure, known)}" + (f" ({apart})" if apart else ""))
+        if took:
+            cells.append(_times_faster(took, run["wall_seconds"]) if run["state"] == OK else "-")
         if any(run.get(f"known_{measure['name']}") for measure in measures):
             rows.append([name_of(study, run), *cells])
     return titles, rows
