@@ -73,7 +73,8 @@ void plan_and_run(const scene::CommandLine& command_line, const scene::Scene& sc
   if (command_line.preview) leave_preview(preparation, *command_line.preview);
   if (command_line.check) return;
   std::vector<std::filesystem::path> pictures;
-  if (scene.specimen.micrograph) pictures.push_back(scene.specimen.micrograph->file);
+  if (scene.specimen.micrograph)
+    pictures = micrograph::files_of_image(scene.specimen.micrograph->file);
   ending.results = scene::results_folder(command_line, scene);
   run_in_folder(preparation, {ending.results, command_line.restart, command_line.checkpoint,
                               command_line.overwrite, command_line.time_limit, command_line.scene,

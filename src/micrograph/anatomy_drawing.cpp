@@ -76,6 +76,28 @@ class Microscope {
     }
   }
 
+  /// At the middle of each slice.
+  std::vector<std::uint8_t> slices(double depth, int count) const
+  {
+    const std::vector<double> scale = draw().wall_scale;
+    const Grain& grain = *wood_.grain;
+    Random random(seed_, Stream::ends);
+    std::vector<double> end(cells_.size()), closed(cells_.size());
+    for (double& at : end) at = grain.cell_length * random.uniform();
+    std::vector<std::uint8_t> gray;
+    for (int k = 0; k < count; ++k) {
+      const double z = depth * (k + 0.5) / count;
+      for (std::size_t c = 0; c < cells_.size(); ++c) {
+        const double behind = std::fmod(z + end[c], grain.cell_length);
+        const double away = std::min(behind, grain.cell_length - behind);
+        closed[c] = std::max(0.0, 1 - away / grain.taper);
+      }
+      const std::vector<std::uint8_t> slice = expose(scale, closed);
+      gray.insert(gray.end(), slice.begin(), slice.end());
+    }
+    return gray;
+  }
+
   Drawing draw() const
   {
     Drawing drawing;
@@ -154,11 +176,12 @@ class Microscope {
     return scale[w];
   }
 
-  double seen(const View& view, double scale) const
+  /// `closed`: how far the lumen has narrowed to its end, from 0 to 1.
+  double seen(const View& view, double scale, double closed) const
   {
     const Cell& cell = cells_[view.cell];
     const Gray& gray = wood_.gray;
-    const double depth = cell.lumen_depth(view.at, scale);
+    const double depth = cell.lumen_depth(view.at, scale) - closed * cell.inradius;
     // Secondary electrons leave rims more easily: bright within 2 um of the lumen. The lumen
     // darkens over 8 um, the middle lamella is one pixel wide.
     const double rim = std::max(0.0, 1 - std::abs(depth) / 2);
@@ -169,14 +192,16 @@ class Microscope {
     return wall + open * (lumen - wall);
   }
 
-  std::vector<std::uint8_t> expose(const std::vector<double>& scale) const
+  std::vector<std::uint8_t> expose(const std::vector<double>& scale,
+                                   const std::vector<double>& closed = {}) const
   {
     std::vector<double> gray(views_.size());
     std::vector<double> scale_of(cells_.size());
     for (std::size_t c = 0; c < cells_.size(); ++c)
       scale_of[c] = scale_at(cells_[c].centre.x, scale);
     for (std::size_t p = 0; p < views_.size(); ++p)
-      gray[p] = seen(views_[p], scale_of[views_[p].cell]);
+      gray[p] = seen(views_[p], scale_of[views_[p].cell],
+                     closed.empty() ? 0 : closed[std::size_t(views_[p].cell)]);
     for (int pass = 0; pass < wood_.gray.blur; ++pass) blur(gray, nx_, ny_);
     std::vector<std::uint8_t> levels(gray.size());
     for (std::size_t p = 0; p < gray.size(); ++p)
@@ -275,6 +300,12 @@ class Microscope {
 Drawing draw(const Parameters& wood, std::uint64_t seed)
 {
   return Microscope(wood, seed).draw();
+}
+
+std::vector<std::uint8_t> draw_slices(const Parameters& wood, std::uint64_t seed, double depth,
+                                      int slices)
+{
+  return Microscope(wood, seed).slices(depth, slices);
 }
 
 }  // namespace mpm::micrograph::anatomy

@@ -40,6 +40,7 @@ std::string key_table()
   add_rows(table, "growth_ring", ring_rows, wood.growth_ring);
   add_rows(table, "rays", rays_rows, wood.rays.emplace());
   add_rows(table, "vessels", vessels_rows, wood.vessels.emplace());
+  add_rows(table, "grain", grain_rows, wood.grain.emplace());
   add_rows(table, "resin_canals[k]", canal_rows, canal.front());
   add_rows(table, "density", density_rows, wood.density.emplace());
   add_rows(table, "density.windows[k]", window_rows, window.front());

@@ -40,8 +40,8 @@ class Reader {
     Parameters wood;
     wood.file = file_;
     const std::vector<std::string_view> sections{
-        "seed", "picture", "gray",    "irregularity", "files",
-        "rays", "vessels", "density", "growth_ring",  "resin_canals"};
+        "seed",    "picture", "gray",        "irregularity", "files", "rays",
+        "vessels", "density", "growth_ring", "resin_canals", "grain"};
     if (!is_map(top, "the file")) throw InputError(problems_);
     check_keys(top, sections);
     if (top["seed"]) read_seed(top["seed"], wood.seed);
@@ -56,6 +56,7 @@ class Reader {
     if (top["growth_ring"]) section(top["growth_ring"], "growth_ring", ring_rows, wood.growth_ring);
     if (top["rays"]) section(top["rays"], "rays", rays_rows, wood.rays.emplace());
     if (top["vessels"]) section(top["vessels"], "vessels", vessels_rows, wood.vessels.emplace());
+    if (top["grain"]) section(top["grain"], "grain", grain_rows, wood.grain.emplace());
     if (top["resin_canals"])
       list(top["resin_canals"], "resin_canals", canal_rows, wood.resin_canals);
     if (top["density"]) read_density(top["density"], wood.density.emplace());

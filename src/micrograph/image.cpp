@@ -1,5 +1,6 @@
 #include <mpm/micrograph/image.hpp>
 #include <mpm/micrograph/image_formats.hpp>
+#include <mpm/scene/slices.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -52,13 +53,139 @@ GrayImage read_by_format(const std::filesystem::path& file)
   throw InputError("is not a BMP, PNG or TIFF image. Save it in one of these formats.");
 }
 
+/// Whether a name is the pattern with any letters in place of each `*`.
+bool fits(std::string_view name, std::string_view pattern)
+{
+  if (pattern.empty()) return name.empty();
+  if (pattern.front() == '*')
+    return fits(name, pattern.substr(1)) || (!name.empty() && fits(name.substr(1), pattern));
+  return !name.empty() && name.front() == pattern.front() &&
+         fits(name.substr(1), pattern.substr(1));
+}
+
+/// `wood_9` before `wood_10`: numbers count as such.
+bool comes_before(std::string_view a, std::string_view b)
+{
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  while (!a.empty() && !b.empty()) {
+    if (!is_digit(a.front()) || !is_digit(b.front())) {
+      if (a.front() != b.front()) return a.front() < b.front();
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+      continue;
+    }
+    const auto number = [&](std::string_view& text) {
+      while (text.size() > 1 && text[0] == '0' && is_digit(text[1])) text.remove_prefix(1);
+      std::size_t digits = 0;
+      while (digits < text.size() && is_digit(text[digits])) ++digits;
+      const std::string_view found = text.substr(0, digits);
+      text.remove_prefix(digits);
+      return found;
+    };
+    const std::string_view one = number(a), other = number(b);
+    if (one.size() != other.size()) return one.size() < other.size();
+    if (one != other) return one < other;
+  }
+  return a.size() < b.size();
+}
+
 }  // namespace
 
-void check_dimensions(std::int64_t width, std::int64_t height)
+std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& pattern)
+{
+  if (!scene::names_slices(pattern)) return {pattern};
+  const std::filesystem::path folder =
+      pattern.has_parent_path() ? pattern.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder))
+    throw InputError(pattern.string() +
+                     ": its folder does not exist. Check the name of the slices.");
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_regular_file() &&
+        fits(entry.path().filename().string(), pattern.filename().string()))
+      files.push_back(entry.path());
+  if (files.empty())
+    throw InputError(pattern.string() + ": no file has such a name. Check the name of the slices.");
+  std::ranges::sort(files, [](const auto& a, const auto& b) {
+    const std::string one = a.filename().string(), other = b.filename().string();
+    return comes_before(one, other) || (!comes_before(other, one) && one < other);
+  });
+  return files;
+}
+
+namespace {
+
+GrayImage named_read(const std::filesystem::path& file)
+{
+  try {
+    return read_by_format(file);
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+}
+
+GrayImage read_slices(const std::vector<std::filesystem::path>& files)
+{
+  GrayImage stack = named_read(files.front());
+  try {
+    check_dimensions(stack.width, stack.height, std::int64_t(files.size()));
+  } catch (const InputError& error) {
+    throw InputError(files.front().string() + " and those that follow: " + error.what());
+  }
+  for (std::size_t k = 0; k < files.size(); ++k) try {
+      const GrayImage slice = k == 0 ? stack : named_read(files[k]);
+      if (slice.slices > 1)
+        throw InputError(fmt::format(
+            "is a stack of {} slices itself. Name it alone, without a `*`.", slice.slices));
+      if (k > 0) add_slice(stack, slice);
+    } catch (const InputError& error) {
+      const std::string name = files[k].string() + ": ";
+      const std::string said = error.what();
+      throw InputError(said.starts_with(name) ? said : name + said);
+    }
+  return stack;
+}
+
+}  // namespace
+
+void add_slice(GrayImage& stack, const GrayImage& slice)
+{
+  if (slice.width != stack.width || slice.height != stack.height)
+    throw InputError(
+        fmt::format("slice {} has {} x {} pixels, those before it {} x {}. Give all slices one "
+                    "size.",
+                    stack.slices + 1, slice.width, slice.height, stack.width, stack.height));
+  stack.gray.insert(stack.gray.end(), slice.gray.begin(), slice.gray.end());
+  ++stack.slices;
+}
+
+GrayImage each_slice(GrayImage image, const std::function<GrayImage(const GrayImage&)>& change)
+{
+  if (image.slices == 1) return change(image);
+  GrayImage stack;
+  const std::size_t pixels = std::size_t(image.width) * image.height;
+  for (int k = 0; k < image.slices; ++k) {
+    const auto first = image.gray.begin() + std::ptrdiff_t(k * pixels);
+    GrayImage slice = change(
+        {image.width, image.height, {first, first + std::ptrdiff_t(pixels)}, image.pixel_size, 1});
+    if (k == 0)
+      stack = std::move(slice);
+    else
+      add_slice(stack, slice);
+  }
+  return stack;
+}
+
+void check_dimensions(std::int64_t width, std::int64_t height, std::int64_t slices)
 {
   if (width <= 0 || height <= 0)
     throw InputError(
         fmt::format("the image has no pixels ({} x {}). Save it again.", width, height));
+  if (slices > 1 && width <= most_pixels / height && slices > most_pixels / (width * height))
+    throw InputError(fmt::format(
+        "{} slices of {} x {} pixels are too many (at most {} pixels). Cut out the part "
+        "to be modelled, or scale the slices down.",
+        slices, width, height, most_pixels));
   if (width > most_pixels / height)
     throw InputError(
         fmt::format("{} x {} pixels are too many (at most {}). Cut out the part to be modelled, or "
@@ -68,11 +195,7 @@ void check_dimensions(std::int64_t width, std::int64_t height)
 
 GrayImage read_image(const std::filesystem::path& file)
 {
-  try {
-    return read_by_format(file);
-  } catch (const InputError& error) {
-    throw InputError(file.string() + ": " + error.what());
-  }
+  return scene::names_slices(file) ? read_slices(files_of_image(file)) : named_read(file);
 }
 
 GrayImage cropped(const GrayImage& image, const std::array<int, 4>& part)
@@ -84,7 +207,7 @@ GrayImage cropped(const GrayImage& image, const std::array<int, 4>& part)
         fmt::format("specimen.crop is [{}, {}, {}, {}] (x, y from the top, width, height), outside "
                     "the image of {} x {} pixels. Keep it inside.",
                     left, top, width, height, image.width, image.height));
-  GrayImage result{width, height, {}, image.pixel_size};
+  GrayImage result{width, height, {}, image.pixel_size, 1};
   result.gray.reserve(std::size_t(width) * height);
   for (int row = top; row < top + height; ++row) {
     const double* first = &image.gray[std::size_t(row) * image.width + left];
@@ -109,7 +232,7 @@ GrayImage turned(const GrayImage& image, int degrees)
           fmt::format("specimen.rotate is {} degrees. Give 0, 90, 180 or 270.", degrees));
   }
   // The right column becomes the top row.
-  GrayImage result{image.height, image.width, std::vector<double>(image.gray.size()), {}};
+  GrayImage result{image.height, image.width, std::vector<double>(image.gray.size()), {}, 1};
   if (image.pixel_size) result.pixel_size = {(*image.pixel_size)[1], (*image.pixel_size)[0]};
   for (int row = 0; row < result.height; ++row)
     for (int column = 0; column < result.width; ++column)

@@ -113,16 +113,13 @@ std::optional<std::array<double, 2>> pixel_size(TIFF* file)
 
 void check_suitable(TIFF* file)
 {
-  const int pages = TIFFNumberOfDirectories(file);
-  if (pages > 1)
-    throw InputError(fmt::format(
-        "is a TIFF of {} pages. Save the one slice to be modelled as a TIFF of its own.", pages));
   // Stacks beyond 4 GB name their slices in the description only.
   const std::string_view slices = imagej_entry(description(file), "images");
-  if (!slices.empty() && slices != "1")
+  if (!slices.empty() && slices != fmt::format("{}", int(TIFFNumberOfDirectories(file))))
     throw InputError(fmt::format(
-        "is an ImageJ stack of {} slices. Save the one slice to be modelled as a TIFF of its own.",
-        slices));
+        "is an ImageJ stack of {} slices in {} pages. Save what is to be modelled as an "
+        "image sequence, or as a stack of less than 4 GB.",
+        slices, int(TIFFNumberOfDirectories(file))));
   const int orientation = tag<std::uint16_t>(file, TIFFTAG_ORIENTATION);
   if (orientation != ORIENTATION_TOPLEFT)
     throw InputError(fmt::format(
@@ -177,6 +174,20 @@ GrayImage read_rgba(TIFF* file, int width, int height)
   return gray_from_samples<std::uint8_t>({bytes, 4 * raster.size()}, width, height, 4);
 }
 
+GrayImage read_page(TIFF* file, int pages)
+{
+  check_suitable(file);
+  const auto width = tag<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH);
+  const auto height = tag<std::uint32_t>(file, TIFFTAG_IMAGELENGTH);
+  check_dimensions(width, height, pages);
+  const bool gray16 = tag<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE) == 16 &&
+                      tag<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL) == 1;
+  GrayImage image = gray16 ? read_gray16(file, int(width), int(height))
+                           : read_rgba(file, int(width), int(height));
+  image.pixel_size = pixel_size(file);
+  return image;
+}
+
 }  // namespace
 
 GrayImage read_tiff(const std::filesystem::path& path)
@@ -184,16 +195,13 @@ GrayImage read_tiff(const std::filesystem::path& path)
   const QuietTiff quiet;
   const std::unique_ptr<TIFF, Close> file(TIFFOpen(path.c_str(), "r"));
   if (!file) QuietTiff::fail();
-  check_suitable(file.get());
-  const auto width = tag<std::uint32_t>(file.get(), TIFFTAG_IMAGEWIDTH);
-  const auto height = tag<std::uint32_t>(file.get(), TIFFTAG_IMAGELENGTH);
-  check_dimensions(width, height);
-  const bool gray16 = tag<std::uint16_t>(file.get(), TIFFTAG_BITSPERSAMPLE) == 16 &&
-                      tag<std::uint16_t>(file.get(), TIFFTAG_SAMPLESPERPIXEL) == 1;
-  GrayImage image = gray16 ? read_gray16(file.get(), int(width), int(height))
-                           : read_rgba(file.get(), int(width), int(height));
-  image.pixel_size = pixel_size(file.get());
-  return image;
+  const int pages = TIFFNumberOfDirectories(file.get());
+  GrayImage stack = read_page(file.get(), pages);
+  for (int page = 1; page < pages; ++page) {
+    if (!TIFFSetDirectory(file.get(), std::uint16_t(page))) QuietTiff::fail();
+    add_slice(stack, read_page(file.get(), pages));
+  }
+  return stack;
 }
 
 }  // namespace mpm::micrograph

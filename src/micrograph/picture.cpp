@@ -1,8 +1,10 @@
 #include <mpm/core/error.hpp>
 #include <mpm/micrograph/anatomy_drawing.hpp>
+#include <mpm/micrograph/image_formats.hpp>
 #include <mpm/micrograph/picture.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -44,31 +46,54 @@ std::array<double, 2> whole_size(const scene::Micrograph& micrograph, const Gray
   return size;
 }
 
+/// In space of wood whose cells end a stack, its slices as thick as a pixel is wide.
 GrayImage drawn_image(const scene::Micrograph& micrograph)
 {
   const anatomy::Parameters wood = anatomy::read_parameters(micrograph.file);
-  const anatomy::Drawing drawing =
-      anatomy::draw(wood, micrograph.seed ? std::uint64_t(*micrograph.seed) : wood.seed);
+  const std::uint64_t seed = micrograph.seed ? std::uint64_t(*micrograph.seed) : wood.seed;
+  GrayImage image{wood.picture.width_px, wood.picture.height_px, {}, {}, 1};
   const auto pixel = [](double micrometres, int pixels) { return micrometres * 1e-6 / pixels; };
-  return {drawing.width,
-          drawing.height,
-          {drawing.gray.begin(), drawing.gray.end()},
-          {{pixel(wood.picture.width, drawing.width), pixel(wood.picture.height, drawing.height)}}};
+  image.pixel_size = {pixel(wood.picture.width, image.width),
+                      pixel(wood.picture.height, image.height)};
+  std::vector<std::uint8_t> gray;
+  if (wood.grain && micrograph.depth) {
+    const double slices = std::max(1.0, std::round(*micrograph.depth / (*image.pixel_size)[0]));
+    check_dimensions(image.width, image.height, std::int64_t(std::min(slices, 1e9)));
+    image.slices = int(slices);
+    gray = anatomy::draw_slices(wood, seed, *micrograph.depth * 1e6, image.slices);
+  } else {
+    gray = anatomy::draw(wood, seed).gray;
+  }
+  image.gray.assign(gray.begin(), gray.end());
+  return image;
+}
+
+GrayImage upright(const scene::Micrograph& micrograph, const GrayImage& slice)
+{
+  GrayImage image = micrograph.crop ? cropped(slice, *micrograph.crop) : slice;
+  image = turned(image, micrograph.rotate);
+  if (micrograph.flip_horizontal) image = mirrored(image);
+  if (micrograph.flip_vertical) image = upended(image);
+  return image;
 }
 
 Picture specimen_picture(const scene::Micrograph& micrograph)
 {
   GrayImage image = micrograph.is_drawn() ? drawn_image(micrograph) : read_image(micrograph.file);
+  if (image.slices > 1 && !micrograph.depth)
+    throw InputError(
+        fmt::format("{}: is a stack of {} slices, and the scene lies in the plane. Give "
+                    "specimen.depth, the thickness of all of them, or save the one slice to be "
+                    "modelled as a file of its own.",
+                    micrograph.file.string(), image.slices));
   std::array<double, 2> size = whole_size(micrograph, image);
-  if (micrograph.crop) {
-    const double whole_width = image.width, whole_height = image.height;
-    image = cropped(image, *micrograph.crop);
-    size = {size[0] * (image.width / whole_width), size[1] * (image.height / whole_height)};
-  }
-  image = turned(image, micrograph.rotate);
-  if (micrograph.rotate % 180 != 0) std::swap(size[0], size[1]);
-  if (micrograph.flip_horizontal) image = mirrored(image);
-  if (micrograph.flip_vertical) image = upended(image);
+  const double whole_width = image.width, whole_height = image.height;
+  image = each_slice(std::move(image),
+                     [&](const GrayImage& slice) { return upright(micrograph, slice); });
+  const bool lies = micrograph.rotate % 180 != 0;
+  const int width = lies ? image.height : image.width, height = lies ? image.width : image.height;
+  size = {size[0] * (width / whole_width), size[1] * (height / whole_height)};
+  if (lies) std::swap(size[0], size[1]);
   return {std::move(image), size};
 }
 

@@ -35,42 +35,44 @@ class DisjointSets {
 
 }  // namespace
 
-Pieces connected_pieces(const Lattice<2>& lattice)
+template <int Dim>
+Pieces connected_pieces(const Lattice<Dim>& lattice)
 {
-  // Two passes over the rows: provisional labels from the neighbours at the left and below, then
-  // one number for each set of labels that met.
+  // Two passes over the rows: provisional labels from the neighbours that came before, then one
+  // number for each set of labels that met.
   Pieces pieces;
   pieces.label.assign(lattice.material.size(), Pieces::none);
   DisjointSets sets;
-  const LocalIndex nx = lattice.part.count()[0], ny = lattice.part.count()[1];
-  for (LocalIndex j = 0; j < ny; ++j)
-    for (LocalIndex i = 0; i < nx; ++i) {
-      const std::size_t location = std::size_t(j) * nx + i;
-      if (lattice.material[location] == Lattice<2>::empty) continue;
-      std::int32_t* label = &pieces.label[location];
-      const std::int32_t left = i > 0 ? label[-1] : Pieces::none;
-      const std::int32_t below = j > 0 ? *(label - nx) : Pieces::none;
-      if (left != Pieces::none && below != Pieces::none)
-        *label = sets.join(left, below);
-      else
-        *label = left != Pieces::none ? left : below != Pieces::none ? below : sets.add();
+  std::size_t location = 0;
+  for_each_index(lattice.part, [&](const IndexVec<Dim>& at) {
+    const std::size_t here = location++;
+    if (lattice.material[here] == Lattice<Dim>::empty) return;
+    std::int32_t& label = pieces.label[here];
+    std::size_t stride = 1;
+    for (int d = 0; d < Dim; stride *= std::size_t(lattice.part.count()[d++])) {
+      if (at[d] == lattice.part.lower[d]) continue;
+      const std::int32_t before = pieces.label[here - stride];
+      if (before == Pieces::none) continue;
+      label = label == Pieces::none ? before : sets.join(label, before);
     }
+    if (label == Pieces::none) label = sets.add();
+  });
 
   std::vector<std::int32_t> number_of_root;
-  for (std::size_t location = 0; location < pieces.label.size(); ++location) {
-    std::int32_t& label = pieces.label[location];
-    if (label == Pieces::none) continue;
+  location = 0;
+  for_each_index(lattice.part, [&](const IndexVec<Dim>& at) {
+    std::int32_t& label = pieces.label[location++];
+    if (label == Pieces::none) return;
     const auto root = std::size_t(sets.root(label));
     if (root >= number_of_root.size()) number_of_root.resize(root + 1, Pieces::none);
     if (number_of_root[root] == Pieces::none) {
       number_of_root[root] = std::int32_t(pieces.size.size());
       pieces.size.push_back(0);
-      const auto at = LocalIndex(location);
-      pieces.first.push_back(lattice.id(lattice.part.lower + IndexVec<2>(at % nx, at / nx)));
+      pieces.first.push_back(lattice.id(at));
     }
     label = number_of_root[root];
     ++pieces.size[std::size_t(label)];
-  }
+  });
   return pieces;
 }
 
@@ -90,28 +92,32 @@ bool is_larger(const Group& a, const Group& b)
 /// number of its first location.
 class BorderPieces {
  public:
-  BorderPieces(const Lattice<2>& rows, const Pieces& pieces, const Share& share)
+  template <int Dim>
+  BorderPieces(const Lattice<Dim>& held, const Pieces& pieces, const Share& share)
   {
-    const LocalIndex nx = rows.count[0];
-    const IndexBox<2> whole{IndexVec<2>::Zero(), rows.count};
-    std::vector<LocalIndex> borders;  // rows that are the first of a part, but for the lowest
+    // Slabs are cut across the last axis into layers; in the plane a layer is a row.
+    constexpr int last = Dim - 1;
+    const IndexBox<Dim> whole{IndexVec<Dim>::Zero(), held.count};
+    const auto layer_size = std::size_t(whole.size() / held.count[last]);
+    std::vector<LocalIndex> borders;  // layers that are the first of a part, but for the lowest
     for (int part = 0; part < share.parts; ++part)
-      if (const LocalIndex row = slab(whole, part, share.parts).lower[1];
-          row > 0 && row < rows.count[1] && (borders.empty() || row > borders.back()))
-        borders.push_back(row);
+      if (const LocalIndex layer = slab(whole, part, share.parts).lower[last];
+          layer > 0 && layer < held.count[last] && (borders.empty() || layer > borders.back()))
+        borders.push_back(layer);
 
     // Below and above each border: the piece's first location + 1 (0: void) and its size.
-    std::vector<double> sides(borders.size() * nx * 4);
+    std::vector<double> sides(borders.size() * layer_size * 4);
     for (std::size_t border = 0; border < borders.size(); ++border)
       for (int above = 0; above < 2; ++above) {
-        const LocalIndex row = borders[border] - 1 + above;
-        if (row < rows.part.lower[1] || row >= rows.part.upper[1]) continue;
-        for (LocalIndex i = 0; i < nx; ++i) {
-          const std::int32_t piece = pieces.label[rows.place({i, row})];
+        const LocalIndex layer = borders[border] - 1 + above;
+        if (layer < held.part.lower[last] || layer >= held.part.upper[last]) continue;
+        const std::size_t first = std::size_t(layer - held.part.lower[last]) * layer_size;
+        for (std::size_t i = 0; i < layer_size; ++i) {
+          const std::int32_t piece = pieces.label[first + i];
           if (piece == Pieces::none) continue;
-          double* side = &sides[((border * nx + i) * 2 + above) * 2];
-          side[0] = double(pieces.first[piece] + 1);
-          side[1] = double(pieces.size[piece]);
+          double* side = &sides[((border * layer_size + i) * 2 + std::size_t(above)) * 2];
+          side[0] = double(pieces.first[std::size_t(piece)] + 1);
+          side[1] = double(pieces.size[std::size_t(piece)]);
         }
       }
     share.sum(sides);
@@ -180,7 +186,7 @@ std::vector<Run> gathered(const std::vector<Run>& own, const Share& share)
   const auto total = std::size_t(std::accumulate(count.begin(), count.end(), 0.0));
   std::vector<double> numbers(3 * total);
   for (std::size_t k = 0; k < own.size(); ++k) {
-    numbers[3 * (before + k)] = own[k].row;
+    numbers[3 * (before + k)] = double(own[k].row);
     numbers[3 * (before + k) + 1] = own[k].begin;
     numbers[3 * (before + k) + 2] = own[k].end;
   }
@@ -188,16 +194,18 @@ std::vector<Run> gathered(const std::vector<Run>& own, const Share& share)
   std::vector<Run> all;
   for (std::size_t at = 0; at < numbers.size(); at += 3)
     all.push_back(
-        {LocalIndex(numbers[at]), LocalIndex(numbers[at + 1]), LocalIndex(numbers[at + 2])});
+        {GlobalIndex(numbers[at]), LocalIndex(numbers[at + 1]), LocalIndex(numbers[at + 2])});
   return all;
 }
 
 }  // namespace
 
-std::vector<Run> removed_runs(const Lattice<2>& rows, const PieceRules& rules, const Share& share)
+template <int Dim>
+std::vector<Run> removed_runs(const Lattice<Dim>& slab_of_part, const PieceRules& rules,
+                              const Share& share)
 {
-  const Pieces pieces = connected_pieces(rows);
-  BorderPieces at_borders(rows, pieces, share);
+  const Pieces pieces = connected_pieces(slab_of_part);
+  BorderPieces at_borders(slab_of_part, pieces, share);
   std::vector<Group> groups;  // the whole that each piece is part of
   Group largest{std::numeric_limits<GlobalIndex>::max(), 0};
   for (std::size_t piece = 0; piece < pieces.size.size(); ++piece) {
@@ -208,20 +216,26 @@ std::vector<Run> removed_runs(const Lattice<2>& rows, const PieceRules& rules, c
   largest = largest_over_parts(largest, share);
 
   std::vector<Run> runs;
-  for (LocalIndex j = rows.part.lower[1]; j < rows.part.upper[1]; ++j)
-    for (LocalIndex i = 0; i < rows.count[0]; ++i) {
-      const std::int32_t piece = pieces.label[rows.place({i, j})];
-      if (piece == Pieces::none) continue;
-      const Group& group = groups[std::size_t(piece)];
-      if (group.size >= double(rules.fewest_locations) &&
-          (!rules.only_largest || group.first == largest.first))
-        continue;
-      if (!runs.empty() && runs.back().row == j && runs.back().end == i)
-        ++runs.back().end;
-      else
-        runs.push_back({j, i, i + 1});
-    }
+  std::size_t location = 0;
+  for_each_index(slab_of_part.part, [&](const IndexVec<Dim>& at) {
+    const std::int32_t piece = pieces.label[location++];
+    if (piece == Pieces::none) return;
+    const Group& group = groups[std::size_t(piece)];
+    if (group.size >= double(rules.fewest_locations) &&
+        (!rules.only_largest || group.first == largest.first))
+      return;
+    const GlobalIndex row = slab_of_part.id(at) / slab_of_part.count[0];
+    if (!runs.empty() && runs.back().row == row && runs.back().end == at[0])
+      ++runs.back().end;
+    else
+      runs.push_back({row, at[0], at[0] + 1});
+  });
   return gathered(runs, share);
 }
+
+template Pieces connected_pieces<2>(const Lattice<2>&);
+template Pieces connected_pieces<3>(const Lattice<3>&);
+template std::vector<Run> removed_runs<2>(const Lattice<2>&, const PieceRules&, const Share&);
+template std::vector<Run> removed_runs<3>(const Lattice<3>&, const PieceRules&, const Share&);
 
 }  // namespace mpm::micrograph

@@ -97,11 +97,11 @@ std::optional<double> aimed_share(const scene::Scene& scene)
 }
 
 [[noreturn]] void fail_without_wall(const scene::Micrograph& micrograph, double threshold,
-                                    std::span<const double> means, const IndexVec<2>& count,
+                                    std::span<const double> means, GlobalIndex locations,
                                     const Share& share)
 {
   const double darkest = nth_smallest(means, 0, share);
-  const double brightest = nth_smallest(means, GlobalIndex(count[0]) * count[1] - 1, share);
+  const double brightest = nth_smallest(means, locations - 1, share);
   const std::string range =
       fmt::format("the gray of the locations lies between {:.1f} and {:.1f}", darkest, brightest);
   if (!micrograph.bands.empty())
@@ -118,14 +118,15 @@ std::optional<double> aimed_share(const scene::Scene& scene)
 
 }  // namespace
 
-Section::Section(const scene::Scene& scene, Picture picture, const IndexVec<2>& count,
-                 const Share& share)
+template <int Dim>
+Section<Dim>::Section(const scene::Scene& scene, Picture picture, const IndexVec<Dim>& count,
+                      const Share& share)
     : image_(std::move(picture.image)), count_(count)
 {
   const scene::Micrograph& micrograph = *scene.specimen.micrograph;
-  const IndexBox<2> whole{IndexVec<2>::Zero(), count};
-  Lattice<2> rows{count, slab(whole, share.part, share.parts), {}, {}};
-  std::vector<double> means = location_means(image_, count, rows.part);
+  const IndexBox<Dim> whole{IndexVec<Dim>::Zero(), count};
+  Lattice<Dim> held{count, slab(whole, share.part, share.parts), {}, {}};
+  std::vector<double> means = location_means(image_, count, held.part);
   const std::optional<double> aim = aimed_share(scene);
   const bool matches = micrograph.sampling == scene::Sampling::match && !aim;
 
@@ -133,7 +134,7 @@ Section::Section(const scene::Scene& scene, Picture picture, const IndexVec<2>& 
   const bool by_threshold = of_pixels.empty();
   if (by_threshold) {
     figures_.threshold =
-        aim ? threshold_of_density(*aim, micrograph.wall, picture.size, rows.part, means, share)
+        aim ? threshold_of_density(*aim, micrograph.wall, picture.size, held.part, means, share)
         : micrograph.threshold_rule == ThresholdRule::otsu ? otsu_threshold(image_.gray)
                                                            : micrograph.threshold;
     figures_.threshold += micrograph.threshold_shift;
@@ -152,30 +153,38 @@ Section::Section(const scene::Scene& scene, Picture picture, const IndexVec<2>& 
   figures_.density = count_in(image_.gray, of_pixels, {}) / double(image_.gray.size());
 
   const double filled = count_in(means, bands_, share);
-  if (filled == 0) fail_without_wall(micrograph, figures_.threshold, means, count, share);
-  rows.material = materials_of(means, bands_);
+  if (filled == 0) fail_without_wall(micrograph, figures_.threshold, means, whole.size(), share);
+  held.material = materials_of(means, bands_);
   if (micrograph.remove_specks > 1 || micrograph.remove_unconnected)
-    remove_pieces(micrograph, rows, filled, share);
+    remove_pieces(micrograph, held, filled, share);
   if (micrograph.remove_unconnected) return;
-  for (const Run& run : removed_runs(rows, {.only_largest = true}, share))
+  for (const Run& run : removed_runs(held, {.only_largest = true}, share))
     figures_.unconnected += run.end - run.begin;
 }
 
-double Section::threshold_of_density(double target, scene::Wall wall,
-                                     const std::array<double, 2>& size, const IndexBox<2>& part,
-                                     std::vector<double>& means, const Share& share)
+template <int Dim>
+double Section<Dim>::threshold_of_density(double target, scene::Wall wall,
+                                          const std::array<double, 2>& size,
+                                          const IndexBox<Dim>& part, std::vector<double>& means,
+                                          const Share& share)
 {
   const double threshold = threshold_for_density(means, target, wall, share);
   if (std::ranges::min(image_.gray) == std::ranges::max(image_.gray)) return threshold;
   // Beyond the gray of the walls or of the lumens a threshold parts noise.
   const GrayClasses classes = gray_classes(image_);
-  const double locations = double(GlobalIndex(count_[0]) * count_[1]);
+  const double locations = double(IndexBox<Dim>{IndexVec<Dim>::Zero(), count_}.size());
   const Band found = wall_band(threshold, wall);
   const double missed =
       std::abs(count_in(means, {&found, 1}, share) / locations - target) - 0.5 / locations;
   constexpr double tolerated = 0.005;
   if (threshold > classes.dark && threshold < classes.bright && missed < tolerated)
     return threshold;
+  if (image_.slices > 1)
+    throw InputError(
+        fmt::format("specimen.threshold: no gray level between {:.1f} and {:.1f}, which most of "
+                    "lumen and wall have, gives a relative density of {:.4g}; the walls of a stack "
+                    "are not made thicker or thinner. Give another density, or a threshold.",
+                    classes.dark, classes.bright, target));
 
   const std::array<double, 2> pixel{size[0] / image_.width, size[1] / image_.height};
   GrownWalls grown = grown_walls(image_, classes, wall, pixel);
@@ -186,27 +195,30 @@ double Section::threshold_of_density(double target, scene::Wall wall,
   return level;
 }
 
-void Section::remove_pieces(const scene::Micrograph& micrograph, Lattice<2>& rows, double filled,
-                            const Share& share)
+template <int Dim>
+void Section<Dim>::remove_pieces(const scene::Micrograph& micrograph, Lattice<Dim>& held,
+                                 double filled, const Share& share)
 {
-  removed_ = removed_runs(rows, {micrograph.remove_specks, micrograph.remove_unconnected}, share);
+  removed_ = removed_runs(held, {micrograph.remove_specks, micrograph.remove_unconnected}, share);
   for (const Run& run : removed_) figures_.removed += run.end - run.begin;
   if (double(figures_.removed) == filled)
     throw InputError(
         fmt::format("no cell wall left: every piece has fewer than specimen.remove_specks = {} "
                     "locations. Lower it.",
                     micrograph.remove_specks));
-  leave_out_removed(rows.part, rows.material);
+  leave_out_removed(held.part, held.material);
 }
 
-std::vector<std::int8_t> Section::materials(const IndexBox<2>& part) const
+template <int Dim>
+std::vector<std::int8_t> Section<Dim>::materials(const IndexBox<Dim>& part) const
 {
   std::vector<std::int8_t> materials = materials_of(location_means(image_, count_, part), bands_);
   leave_out_removed(part, materials);
   return materials;
 }
 
-std::vector<double> Section::wall_levels() const
+template <int Dim>
+std::vector<double> Section<Dim>::wall_levels() const
 {
   std::vector<double> levels = image_.gray;
   const bool by_threshold = figures_.threshold != 0;
@@ -218,17 +230,29 @@ std::vector<double> Section::wall_levels() const
   return levels;
 }
 
-void Section::leave_out_removed(const IndexBox<2>& part, std::vector<std::int8_t>& materials) const
+template <int Dim>
+void Section<Dim>::leave_out_removed(const IndexBox<Dim>& part,
+                                     std::vector<std::int8_t>& materials) const
 {
+  if (removed_.empty() || part.empty()) return;
   const LocalIndex width = part.count()[0];
-  for (auto run = std::ranges::lower_bound(removed_, part.lower[1], {}, &Run::row);
-       run != removed_.end() && run->row < part.upper[1]; ++run) {
-    const LocalIndex begin = std::max(run->begin, part.lower[0]) - part.lower[0];
-    const LocalIndex end = std::min(run->end, part.upper[0]) - part.lower[0];
-    if (begin >= end) continue;
-    const auto row = materials.begin() + std::ptrdiff_t(run->row - part.lower[1]) * width;
-    std::fill(row + begin, row + end, Lattice<2>::empty);
-  }
+  IndexBox<Dim> rows = part;
+  rows.upper[0] = rows.lower[0] + 1;
+  auto first = materials.begin();
+  for_each_index(rows, [&](const IndexVec<Dim>& at) {
+    GlobalIndex row = 0;
+    for (int d = Dim - 1; d > 0; --d) row = row * count_[d] + at[d];
+    for (auto run = std::ranges::lower_bound(removed_, row, {}, &Run::row);
+         run != removed_.end() && run->row == row; ++run) {
+      const LocalIndex begin = std::max(run->begin, part.lower[0]) - part.lower[0];
+      const LocalIndex end = std::min(run->end, part.upper[0]) - part.lower[0];
+      if (begin < end) std::fill(first + begin, first + end, Lattice<Dim>::empty);
+    }
+    first += width;
+  });
 }
+
+template class Section<2>;
+template class Section<3>;
 
 }  // namespace mpm::micrograph

@@ -90,13 +90,21 @@ void Specimen<Dim>::settle_picture(const scene::Scene& scene, Picture picture, c
   if constexpr (Dim == 3) size_[2] = scene.specimen.micrograph->depth.value();
   settle_grid(scene, share);
 
-  Section section(scene, std::move(picture), count_.template head<2>(), share);
-  picture_ = section.figures();
   if constexpr (Dim == 3) {
-    picture_->removed *= count_[2];
-    picture_->unconnected *= count_[2];
+    if (picture.image.slices > 1) {
+      Section<3> stack(scene, std::move(picture), count_, share);
+      picture_ = stack.figures();
+      source_ = std::make_unique<StackSource>(std::move(stack));
+    }
   }
-  source_ = std::make_unique<PictureSource<Dim>>(std::move(section));
+  if (!source_) {
+    Section<2> section(scene, std::move(picture), count_.template head<2>(), share);
+    picture_ = section.figures();
+    const GlobalIndex layers = Dim == 3 ? count_[Dim - 1] : 1;
+    picture_->removed *= layers;
+    picture_->unconnected *= layers;
+    source_ = std::make_unique<PictureSource<Dim>>(std::move(section));
+  }
   std::vector<std::int8_t> materials(scene.materials.size());
   std::iota(materials.begin(), materials.end(), std::int8_t(0));
   const std::vector<WindowCount> counts = count_windows<Dim>(

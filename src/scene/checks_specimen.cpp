@@ -1,4 +1,5 @@
 #include <mpm/core/nearest_name.hpp>
+#include <mpm/scene/slices.hpp>
 
 #include "checks.hpp"
 #include <fmt/format.h>
@@ -34,16 +35,21 @@ void check_bands(const Checked& checked, const std::vector<GrayBand>& bands)
   }
 }
 
+void check_file(const Checked& checked, const std::filesystem::path& file)
+{
+  if (names_slices(file)) return;  // looked for where they are read
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    checked.refuse("specimen.micrograph", "no such file: " + file.string(),
+                   "Give the path from the scene's folder");
+  else if (!std::filesystem::is_regular_file(file, ignored))
+    checked.refuse("specimen.micrograph", file.string() + " is not a file",
+                   "Name a BMP, PNG or TIFF picture, or how to draw one: *.anatomy.yaml");
+}
+
 void check_micrograph(const Checked& checked, const Micrograph& micrograph)
 {
-  std::error_code ignored;
-  if (!std::filesystem::exists(micrograph.file, ignored))
-    checked.refuse("specimen.micrograph", "no such file: " + micrograph.file.string(),
-                   "Give the path from the scene's folder");
-  else if (!std::filesystem::is_regular_file(micrograph.file, ignored))
-    checked.refuse("specimen.micrograph", micrograph.file.string() + " is not a file",
-                   "Name a BMP, PNG or TIFF picture, or how to draw one: *.anatomy.yaml");
-
+  check_file(checked, micrograph.file);
   if (micrograph.crop) {
     for (const int i : {2, 3}) {
       if ((*micrograph.crop)[static_cast<std::size_t>(i)] < 1)

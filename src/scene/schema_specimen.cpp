@@ -161,7 +161,9 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
           [](S& s, auto file) { s.micrograph.emplace().file = *file; },
           {.decides = true, .default_text = "none"},
           "picture of a section: BMP, PNG or TIFF, gray or colour; or how to draw one: "
-          "*.anatomy.yaml"),
+          "*.anatomy.yaml; with depth also a stack of slices: a TIFF of many pages, or all files "
+          "that "
+          "fit a name such as `slice_*.png`, the first at the back"),
       image_member("seed", &I::seed, {.bound = at_least(0), .default_text = "that of the file"},
                    "another piece of the same kind of wood")
           .when(from_drawing),
@@ -177,9 +179,11 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
                     .default_text = "from image_size, the TIFF's resolution or the drawing",
                     .excludes = "image_size"},
                    "width and height of a pixel"),
-      image_member("depth", &I::depth,
-                   {.quantity = length, .bound = above(0), .default_text = "none: in the plane"},
-                   "makes a scene in space: the picture drawn out along z"),
+      image_member(
+          "depth", &I::depth,
+          {.quantity = length, .bound = above(0), .default_text = "none: in the plane"},
+          "makes a scene in space: the picture drawn out along z, or the thickness of a whole "
+          "stack"),
       image_member("crop", &I::crop, {.bound = at_least(0), .default_text = "whole picture"},
                    "part to use, in pixels of the file: x, y (from the top), width, height"),
       property<Rotation, S>(
@@ -227,8 +231,8 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
                    "reaches the threshold"),
       image_member(
           "remove_specks", &I::remove_specks, {.bound = at_least(0)},
-          "pieces of wall with fewer particle locations (in space of a layer across z) than "
-          "this become void"),
+          "pieces of wall with fewer particle locations (of a picture drawn out: of a layer across "
+          "z) than this become void"),
       image_member("remove_unconnected", &I::remove_unconnected, {},
                    "keep only what is connected to the largest piece"),
       member<S>("size", &S::size, {.quantity = length, .bound = above(0), .default_text = "none"},

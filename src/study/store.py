@@ -8,6 +8,7 @@ KEY is drawn from the text of the scene and of the files that it names, from the
 number of ranks and the program: what has changed is run anew.
 """
 import dataclasses
+import fnmatch
 import hashlib
 import json
 import os
@@ -36,7 +37,10 @@ def _named_files(tree, folder):
             yield from _named_files(node, folder)
     elif 0 < len(tree.value) < 1000 and "\n" not in tree.value:
         path = folder / tree.value
-        if path.is_file():
+        if "*" in path.name and path.parent.is_dir():
+            yield from (slice_ for slice_ in path.parent.iterdir()  # of a stack
+                        if fnmatch.fnmatchcase(slice_.name, path.name) and slice_.is_file())
+        elif path.is_file():
             yield path
 
 

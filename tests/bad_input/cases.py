@@ -51,14 +51,15 @@ def bmp(width=20, height=20, bits=8, offset=None, compression=0, drop=0, magic=b
 
 
 def tiff(width=20, height=20, bits=8, samples=1, strip=8, count=None, order=b"II", magic=42, drop=0,
-         photometric=1, compression=1, first=None):
+         photometric=1, compression=1, first=None, pages=1, behind_last=0):
     pixels = bytes(([255] * 5 + [0] * 10 + [255] * 5) * 20)
     entries = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, 1, bits), (259, 3, 1, compression),
                (262, 3, 1, photometric), (273, 4, 1, strip), (277, 3, 1, samples), (278, 4, 1, height),
                (279, 4, 1, len(pixels) if count is None else count)]
     head = order + struct.pack("<HI", magic, 8 + len(pixels) if first is None else first)
     directory = struct.pack("<H", len(entries)) + b"".join(struct.pack("<HHII", *e) for e in entries)
-    file = head + pixels + directory + b"\0\0\0\0"
+    at = [8 + len(pixels) + page * (len(directory) + 4) for page in range(pages)]
+    file = head + pixels + b"".join(directory + struct.pack("<I", place) for place in [*at[1:], behind_last])
     return file[:len(file) - drop]
 
 
@@ -246,6 +247,17 @@ def all_cases():
                        ("TIFF of another magic", tiff(magic=99)), ("TIFF of unknown compression", tiff(compression=4711)),
                        ("TIFF of 4 G pixels", tiff(width=65535, height=65535)), ("TIFF's first bytes", tiff()[:6])]:
         add(image(f"image: {name}", data, file="wood.tif"))
+    for name, data, words in [("TIFF of 3 pages in the plane", tiff(pages=3), "specimen.depth"),
+                              ("TIFF whose pages go in a circle", tiff(pages=3, behind_last=408), "specimen.depth"),
+                              ("TIFF of 400 M pixels in pages", tiff(width=1000, height=1000, pages=400), "too many")]:
+        add(image(f"image: {name}", data, words, file="wood.tif"))
+    for name, files, words in [("no slices", {}, "no file has such a name"),
+                               ("slices of two sizes", {"s_1.png": png(), "s_2.png": png(width=21)}, "s_2.png"),
+                               ("a broken slice", {"s_1.png": png(), "s_2.png": b"no picture"}, "s_2.png"),
+                               ("slices in the plane", {"s_1.png": png(), "s_2.png": png()}, "specimen.depth")]:
+        add(Case(name, (words,), replace=[("wood.png", "s_*.png")], files=files))
+    add(Case("slices without wall", ("no cell wall",), files={f"s_{k}.png": png(rows=[[10] * 20] * 20) for k in (1, 2)},
+             replace=[("wood.png", "s_*.png\n  depth: 10 um")]))
     for name, replacement in [("that is not there", "none.png"), ("that is a folder", "."), ("without a name", '""'),
                               ("of another kind", "scene.yaml"), ("in a folder that is not there", "no/where/wood.png")]:
         add(Case(f"picture {name}", ("scene.yaml",), replace=[("wood.png", replacement)]))

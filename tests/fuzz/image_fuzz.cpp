@@ -11,8 +11,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const FileInMemory file(bytes, size);
   try {
     const mpm::micrograph::GrayImage image = mpm::micrograph::read_image(file.path());
-    if (image.width <= 0 || image.height <= 0 ||
-        image.gray.size() != std::size_t(image.width) * std::size_t(image.height))
+    if (image.width <= 0 || image.height <= 0 || image.slices <= 0 ||
+        image.gray.size() !=
+            std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.slices))
       throw std::logic_error("not as many gray levels as pixels");
     for (const double gray : image.gray)
       if (!(gray >= 0 && gray <= 255)) throw std::logic_error("a gray level that is none");

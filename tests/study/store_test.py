@@ -64,6 +64,15 @@ class Kept(unittest.TestCase):
         self.assertTrue(self.needed(program))
         self.assertEqual(program.runs, 7)
 
+    def test_each_slice_of_a_stack_counts(self):
+        self.scene.write_text("specimen: {micrograph: slice_*.png, depth: 2 * 3 um}\n")
+        program = Counting()
+        for expected in True, False:
+            self.assertEqual(self.needed(program), expected)
+        for content in b"black", b"white":
+            (self.folder / "slice_2.png").write_bytes(content)
+            self.assertTrue(self.needed(program))
+
     def test_what_fails_by_its_input_is_done(self):
         for status in (2, 3):
             program = Counting(status)

@@ -23,6 +23,12 @@ struct Drawing {
 /// Throws InputError where a window's density is out of reach of its walls.
 Drawing draw(const Parameters& wood, std::uint64_t seed);
 
+/// Gray levels of `slices` equal slices of a piece `depth` um thick, one after the other, each as
+/// wide and high as what draw() shows: the same tissue, where lumens close at the ends of their
+/// cells (Parameters::grain). Throws as draw().
+std::vector<std::uint8_t> draw_slices(const Parameters& wood, std::uint64_t seed, double depth,
+                                      int slices);
+
 /// 8-bit gray, uncompressed, bottom row first, with the pixel size in the header.
 std::vector<std::uint8_t> bmp_bytes(const Drawing& drawing, const Picture& picture);
 

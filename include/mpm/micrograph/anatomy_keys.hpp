@@ -73,6 +73,11 @@ inline constexpr Row<Vessels> vessels_rows[] = {
     {"wall", &Vessels::wall, 0.1, 100, "um", "wall of a vessel"},
     {"group_chance", &Vessels::group_chance, 0, 1, "", "chance that one more joins a radial group"},
 };
+inline constexpr Row<Grain> grain_rows[] = {
+    {"cell_length", &Grain::cell_length, 10, 1e6, "um", "length of cells along the grain"},
+    {"taper", &Grain::taper, 1, 1e5, "um",
+     "way along the grain on which a lumen closes at its end"},
+};
 inline constexpr Row<ResinCanal> canal_rows[] = {
     {"x", &ResinCanal::x, -1e6, 1e6, "um", "centre, from the left"},
     {"y", &ResinCanal::y, -1e6, 1e6, "um", "centre, from the top"},

@@ -52,6 +52,11 @@ struct Vessels {
   double per_mm2 = 60, smallest = 40, largest = 70, wall = 2.5, group_chance = 0.5;
 };
 
+/// Along z, for a stack of slices.
+struct Grain {
+  double cell_length = 3000, taper = 40;
+};
+
 struct ResinCanal {
   double x = 0, y = 0, diameter = 100, epithelium = 16, wall = 1.6;
 };
@@ -78,6 +83,7 @@ struct Parameters {
   GrowthRing growth_ring;
   std::optional<Rays> rays;
   std::optional<Vessels> vessels;
+  std::optional<Grain> grain;
   std::vector<ResinCanal> resin_canals;
   std::optional<Density> density;
 };

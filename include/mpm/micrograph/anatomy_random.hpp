@@ -35,7 +35,8 @@ enum class Stream : std::uint64_t {
   rim_y,
   shading,
   noise,
-  tint
+  tint,
+  ends
 };
 
 class Random {

@@ -13,8 +13,10 @@ namespace mpm::micrograph {
 
 /// More pixels than this are refused: 2 GiB as GrayImage.
 constexpr std::int64_t most_pixels = std::int64_t(1) << 28;
-/// Throws InputError unless 0 < width * height <= most_pixels.
-void check_dimensions(std::int64_t width, std::int64_t height);
+/// Throws InputError unless 0 < width * height * slices <= most_pixels.
+void check_dimensions(std::int64_t width, std::int64_t height, std::int64_t slices = 1);
+/// Puts a slice behind those before it. Throws InputError unless they are of one size.
+void add_slice(GrayImage& stack, const GrayImage& slice);
 
 GrayImage read_bmp(std::span<const std::uint8_t> bytes);
 GrayImage read_png(std::span<const std::uint8_t> bytes);
@@ -32,7 +34,7 @@ GrayImage gray_from_samples(std::span<const Sample> samples, int width, int heig
 {
   constexpr double full = std::numeric_limits<Sample>::max();
   const bool has_alpha = channels % 2 == 0;
-  GrayImage image{width, height, std::vector<double>(std::size_t(width) * height), {}};
+  GrayImage image{width, height, std::vector<double>(std::size_t(width) * height), {}, 1};
   const Sample* pixel = samples.data();
   for (double& gray : image.gray) {
     // What lies under a transparent pixel is not in the file: neither wall nor void.

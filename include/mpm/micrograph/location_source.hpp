@@ -50,7 +50,7 @@ class ShapeSource : public LocationSource<Dim> {
 template <int Dim>
 class PictureSource : public LocationSource<Dim> {
  public:
-  explicit PictureSource(Section section) : section_(std::move(section)) {}
+  explicit PictureSource(Section<2> section) : section_(std::move(section)) {}
   void fill(Lattice<Dim>& lattice) const override;
   std::unique_ptr<WallPlaces<Dim>> wall_places(const IndexVec<Dim>& count,
                                                const std::array<bool, 2>& periodic) const override
@@ -62,7 +62,27 @@ class PictureSource : public LocationSource<Dim> {
   }
 
  private:
-  Section section_;
+  Section<2> section_;
+};
+
+/// A stack of slices.
+class StackSource final : public LocationSource<3> {
+ public:
+  explicit StackSource(Section<3> stack) : stack_(std::move(stack)) {}
+  void fill(Lattice<3>& lattice) const override
+  {
+    lattice.material = stack_.materials(lattice.part);
+    lattice.shape.clear();
+  }
+  /// Surfaces are not fitted in space: nobody asks.
+  std::unique_ptr<WallPlaces<3>> wall_places(const IndexVec<3>&,
+                                             const std::array<bool, 2>&) const override
+  {
+    return nullptr;
+  }
+
+ private:
+  Section<3> stack_;
 };
 
 extern template class ShapeSource<2>;

@@ -9,7 +9,7 @@
 
 namespace mpm::micrograph {
 
-/// The part of a micrograph that becomes the specimen, upright.
+/// The part of a micrograph, or of each slice of a stack, that becomes the specimen, upright.
 struct Picture {
   GrayImage image;
   std::array<double, 2> size;  ///< m

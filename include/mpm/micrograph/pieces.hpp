@@ -1,6 +1,6 @@
 #pragma once
-/// Connected pieces of the filled locations of a section. Two locations are connected if they share
-/// an edge; a common corner is not enough.
+/// Connected pieces of the filled locations of a section or a stack. Two locations are connected if
+/// they share an edge, in space a face; a common corner is not enough.
 
 #include <mpm/micrograph/lattice.hpp>
 #include <mpm/micrograph/share.hpp>
@@ -16,7 +16,8 @@ struct Pieces {
 };
 
 /// Pieces are numbered in the order of their first location. Materials are not told apart.
-Pieces connected_pieces(const Lattice<2>& lattice);
+template <int Dim>
+Pieces connected_pieces(const Lattice<Dim>& lattice);
 
 /// Which pieces stay.
 struct PieceRules {
@@ -24,15 +25,25 @@ struct PieceRules {
   bool only_largest = false;  ///< of those that are large enough; the first of equals
 };
 
-/// Locations [begin, end) of a row.
+/// Locations [begin, end) of a row along x; rows are numbered upwards, in space layer by layer.
 struct Run {
-  LocalIndex row, begin, end;
+  GlobalIndex row;
+  LocalIndex begin, end;
 };
 
-/// What the rules remove from a section of which each part holds its slab (whole rows), in the
-/// order of the locations; all of it on every part. Pieces are those of the whole section: parts
-/// tell each other their first and last row, 32 bytes per location of it, and what they remove.
-/// Collective.
-std::vector<Run> removed_runs(const Lattice<2>& rows, const PieceRules& rules, const Share& share);
+/// What the rules remove from a specimen of which each part holds its slab (whole rows, in space
+/// whole layers), in the order of the locations; all of it on every part. Pieces are those of the
+/// whole specimen: parts tell each other their first and last row or layer, 32 bytes per location
+/// of it, and what they remove. Collective.
+template <int Dim>
+std::vector<Run> removed_runs(const Lattice<Dim>& slab_of_part, const PieceRules& rules,
+                              const Share& share);
+
+extern template Pieces connected_pieces<2>(const Lattice<2>&);
+extern template Pieces connected_pieces<3>(const Lattice<3>&);
+extern template std::vector<Run> removed_runs<2>(const Lattice<2>&, const PieceRules&,
+                                                 const Share&);
+extern template std::vector<Run> removed_runs<3>(const Lattice<3>&, const PieceRules&,
+                                                 const Share&);
 
 }  // namespace mpm::micrograph

@@ -1,5 +1,6 @@
 #pragma once
-/// What a picture makes of each location of a section across z.
+/// What a picture makes of each location of a section across z, and a stack of slices of each in
+/// space.
 
 #include <mpm/micrograph/image.hpp>
 #include <mpm/micrograph/picture.hpp>
@@ -31,17 +32,20 @@ struct Band {
 };
 
 /// A location belongs to the cell wall, or to a material, by the mean gray of the picture over its
-/// rectangle. Holds the picture, the limits of the gray levels and what was removed, but no
-/// lattice.
+/// rectangle, in space of the stack over its box. Holds the picture, the limits of the gray levels
+/// and what was removed, but no lattice.
+template <int Dim>
 class Section {
  public:
-  /// Limits and pieces are found by all parts together, each from its slab of the rows. Collective.
-  /// Throws on all parts or on none InputError (no wall, impossible bands).
-  Section(const scene::Scene& scene, Picture picture, const IndexVec<2>& count, const Share& share);
+  /// Limits and pieces are found by all parts together, each from its slab of the specimen.
+  /// Collective. Throws on all parts or on none InputError (no wall, impossible bands, a stack
+  /// whose threshold gives no such density).
+  Section(const scene::Scene& scene, Picture picture, const IndexVec<Dim>& count,
+          const Share& share);
 
   const PictureFigures& figures() const { return figures_; }
   /// Materials of the locations of a part, x fastest.
-  std::vector<std::int8_t> materials(const IndexBox<2>& part) const;
+  std::vector<std::int8_t> materials(const IndexBox<Dim>& part) const;
   /// Of each pixel, top row first, the higher the more it is wall: its gray, minus that where walls
   /// are dark, or with bands whether it lies in one.
   std::vector<double> wall_levels() const;
@@ -49,22 +53,25 @@ class Section {
 
  private:
   /// The threshold that gives the relative density, in the picture or, where none does, in that of
-  /// the distances from its walls' surface, which takes the picture's place. `means`: of `part`.
-  /// Collective.
+  /// the distances from its walls' surface, which takes the picture's place (not of a stack).
+  /// `means`: of `part`. Collective.
   double threshold_of_density(double target, scene::Wall wall, const std::array<double, 2>& size,
-                              const IndexBox<2>& part, std::vector<double>& means,
+                              const IndexBox<Dim>& part, std::vector<double>& means,
                               const Share& share);
-  /// `rows`: this part's slab, `filled`: locations of all parts. Collective.
-  void remove_pieces(const scene::Micrograph& micrograph, Lattice<2>& rows, double filled,
+  /// `held`: this part's slab, `filled`: locations of all parts. Collective.
+  void remove_pieces(const scene::Micrograph& micrograph, Lattice<Dim>& held, double filled,
                      const Share& share);
-  void leave_out_removed(const IndexBox<2>& part, std::vector<std::int8_t>& materials) const;
+  void leave_out_removed(const IndexBox<Dim>& part, std::vector<std::int8_t>& materials) const;
 
   GrayImage image_;
-  IndexVec<2> count_;
+  IndexVec<Dim> count_;
   std::vector<Band> pixel_bands_;  ///< of the pixels' grays
   std::vector<Band> bands_;        ///< of the locations' mean grays
   std::vector<Run> removed_;       ///< in the order of their rows
   PictureFigures figures_;
 };
+
+extern template class Section<2>;
+extern template class Section<3>;
 
 }  // namespace mpm::micrograph

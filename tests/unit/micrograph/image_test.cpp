@@ -30,6 +30,43 @@ class Image : public testing::Test {
   TemporaryDirectory directory_;
 };
 
+// ---------------------------------------------------------------------------------- slices
+
+TEST_F(Image, FilesThatFitANameAreSlicesInTheOrderOfTheirNumbers)
+{
+  for (const int number : {10, 2, 1})
+    directory_.write("wood_" + std::to_string(number) + "_x.bmp", gray_bmp({{number, 7}}));
+  directory_.write("wood_003_x.png", png(2, 1, 8, 0, {3, 7}));
+  directory_.write("other.bmp", gray_bmp({{9, 9}}));
+  const GrayImage stack = read_image(directory_ / "wood_*_x.*");
+  EXPECT_EQ(stack.slices, 4);
+  EXPECT_EQ(stack.width, 2);
+  EXPECT_EQ(stack.height, 1);
+  EXPECT_THAT(stack.gray, ElementsAre(1, 7, 2, 7, 3, 7, 10, 7));
+  EXPECT_EQ(read_image(directory_ / "oth*").slices, 1);
+}
+
+TEST_F(Image, SlicesThatDoNotFitAreNamed)
+{
+  const auto error_of_slices = [&](const std::string& name) {
+    return message_of([&] { read_image(directory_ / name); });
+  };
+  EXPECT_THAT(error_of_slices("none_*.png"),
+              EndsWith("none_*.png: no file has such a name. Check the name of the slices."));
+  EXPECT_THAT(error_of_slices("nowhere/*.png"),
+              EndsWith("*.png: its folder does not exist. Check the name of the slices."));
+  directory_.write("a_1.bmp", gray_bmp({{1, 2}}));
+  directory_.write("a_2.bmp", gray_bmp({{1, 2, 3}}));
+  EXPECT_THAT(error_of_slices("a_*.bmp"),
+              EndsWith("a_2.bmp: slice 2 has 3 x 1 pixels, those before it 2 x 1. Give all slices "
+                       "one size."));
+  directory_.write("b_1.bmp", gray_bmp({{1, 2}}));
+  directory_.write("b_2.bmp", {1, 2, 3});
+  EXPECT_THAT(error_of_slices("b_*.bmp"),
+              EndsWith("b_2.bmp: is not a BMP, PNG or TIFF image. Save it in one of these "
+                       "formats."));
+}
+
 // ------------------------------------------------------------------------------------- BMP
 
 TEST_F(Image, BottomUpBmpHasItsLastStoredRowOnTop)

@@ -18,7 +18,7 @@ constexpr double rounding = 1e-12;
 
 std::vector<double> means_of(const GrayImage& image, int nx, int ny)
 {
-  return location_means(image, {nx, ny}, {{0, 0}, {nx, ny}});
+  return location_means<2>(image, {nx, ny}, {{0, 0}, {nx, ny}});
 }
 
 TEST(LocationMeans, OnePixelPerLocationTurnsTheRowsOver)
@@ -103,6 +103,34 @@ TEST(LocationMeans, OfAPartAreThoseOfTheWhole)
   for_each_index(part, [&](const IndexVec<2>& at) {
     EXPECT_EQ(means[std::size_t(number_in(part, at))], whole[std::size_t(at[1] * 10 + at[0])]);
   });
+}
+
+TEST(LocationMeans, OfAStackAreOverBoxes)
+{
+  // Of 5 slices of 4 x 3 pixels over 3 x 2 x 2 locations, against fine subdivisions of both.
+  GrayImage stack{4, 3, {}, {}, 5};
+  for (int pixel = 0; pixel < 4 * 3 * 5; ++pixel) stack.gray.push_back(pixel * 37 % 256);
+  const IndexVec<3> count(3, 2, 2), fine(12, 6, 10);
+  const IndexBox<3> whole{{0, 0, 0}, count};
+  const std::vector<double> means = location_means(stack, count, whole);
+  ASSERT_EQ(means.size(), 12u);
+  std::vector<double> expected(12, 0.0);
+  for_each_index(IndexBox<3>{{0, 0, 0}, fine}, [&](const IndexVec<3>& at) {
+    const int column = at[0] * 4 / 12, from_bottom = at[1] * 3 / 6, slice = at[2] * 5 / 10;
+    const int location = (at[2] / 5 * 2 + at[1] / 3) * 3 + at[0] / 4;
+    const double share = 12.0 / (12 * 6 * 10);
+    expected[std::size_t(location)] +=
+        share * stack.gray[std::size_t((slice * 3 + 2 - from_bottom) * 4 + column)];
+  });
+  EXPECT_THAT(means, Pointwise(DoubleNear(1e-11), expected));
+
+  const IndexBox<3> part{{1, 0, 1}, {3, 2, 2}};
+  const std::vector<double> of_part = location_means(stack, count, part);
+  std::size_t k = 0;
+  for_each_index(part, [&](const IndexVec<3>& at) {
+    EXPECT_EQ(of_part[k++], means[std::size_t((at[2] * 2 + at[1]) * 3 + at[0])]);
+  });
+  EXPECT_EQ(k, of_part.size());
 }
 
 }  // namespace

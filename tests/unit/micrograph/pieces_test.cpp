@@ -126,5 +126,52 @@ TEST(LargestPiece, OfArmsThatMeetInAnotherPart)
               ElementsAre("0.0.0...", "0.0.0...", "0.0.0...", "0.0.0...", "00000..."));
 }
 
+TEST(Pieces, InSpaceFacesConnectLayers)
+{
+  // A stair that winds up through the layers, a rod through all of them, and specks that touch it
+  // along edges only.
+  const std::vector<Rows> layers{{"00..", "...1", "...."},  //
+                                 {".0..", "...1", "..2."},  //
+                                 {".0..", ".0.1", "2..."},  //
+                                 {"....", ".0.1", "...."}};
+  Lattice<3> whole;
+  whole.count = {4, 3, 4};
+  whole.part = {{0, 0, 0}, whole.count};
+  for (const Rows& layer : layers)
+    for (const std::string& row : layer)
+      for (const char c : row)
+        whole.material.push_back(c == '.' ? Lattice<3>::empty : std::int8_t(c - '0'));
+  const Pieces pieces = connected_pieces(whole);
+  EXPECT_THAT(pieces.size, ElementsAre(6, 4, 1, 1));
+  EXPECT_THAT(pieces.first, ElementsAre(0, 7, 22, 32));
+
+  const auto left = [&](const PieceRules& rules) {
+    std::vector<std::vector<std::int8_t>> found;
+    for (const int parts : {1, 2, 3, 4, 7})
+      on_parts(parts, [&](const Share& share) {
+        Lattice<3> held = whole;
+        held.part = slab(whole.part, share.part, share.parts);
+        held.material.clear();
+        for_each_index(held.part,
+                       [&](const IndexVec<3>& at) { held.material.push_back(whole(at)); });
+        std::vector<std::int8_t> material = whole.material;
+        for (const auto& run : removed_runs(held, rules, share))
+          std::fill_n(material.begin() + run.row * 4 + run.begin, run.end - run.begin,
+                      Lattice<3>::empty);
+        static std::mutex one_at_a_time;
+        const std::lock_guard lock(one_at_a_time);
+        found.push_back(material);
+        EXPECT_EQ(material, found.front()) << "part " << share.part << " of " << parts;
+      });
+    return found.front();
+  };
+  std::vector<std::int8_t> without_specks = whole.material, stair_alone = whole.material;
+  std::ranges::replace(without_specks, std::int8_t(2), Lattice<3>::empty);
+  std::ranges::replace_if(
+      stair_alone, [](int material) { return material > 0; }, Lattice<3>::empty);
+  EXPECT_EQ(left({.fewest_locations = 2}), without_specks);
+  EXPECT_EQ(left({.only_largest = true}), stair_alone);
+}
+
 }  // namespace
 }  // namespace mpm::micrograph::test

@@ -1,7 +1,9 @@
 /// Specimens are the same on any number of parts, and any part of them can be rastered alone.
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <string>
 
 #include "built_specimen.hpp"
 #include "image_files.hpp"
@@ -123,6 +125,63 @@ TEST_F(SharedSpecimen, OfAPictureDrawnOutIntoSpace)
   const Specimen<2> section = built<2>(scene_);
   EXPECT_EQ(specimen.particles(), 6 * section.particles());
   EXPECT_EQ(specimen.picture()->removed, 6 * section.picture()->removed);
+}
+
+TEST_F(SharedSpecimen, OfAStack)
+{
+  scene_.dimensions = 3;
+  scene_.grid.cells = {21, 17, 4};
+  micrograph().depth = 5e-6;
+  for (int slice = 0; slice < 5; ++slice) {  // walls that wander to the right
+    Rows rows = noisy_picture();
+    for (auto& row : rows) std::ranges::rotate(row, row.end() - 2 * slice);
+    directory_.write("slice_" + std::to_string(8 + slice) + ".bmp", gray_bmp(rows));
+  }
+  micrograph().file = directory_ / "slice_*.bmp";
+  micrograph().threshold = 205;
+  for (const int specks : {0, 30})
+    for (const bool unconnected : {false, true}) {
+      micrograph().remove_specks = specks;
+      micrograph().remove_unconnected = unconnected;
+      expect_same_on_any_number_of_parts<3>();
+    }
+  EXPECT_GT(built<3>(scene_).picture()->removed, 0);
+  micrograph().bands = {{140, 200, "ray"}, {200, 256, "wall"}};
+  expect_same_on_any_number_of_parts<3>();
+}
+
+TEST_F(SharedSpecimen, OfAStackOfEqualSlicesIsThePictureDrawnOut)
+{
+  scene_.dimensions = 3;
+  micrograph().depth = 3e-6;
+  const auto drawn_out = materials_of<3>(scene_);
+  for (int slice = 0; slice < 4; ++slice)
+    directory_.write("equal_" + std::to_string(slice) + ".bmp", gray_bmp(noisy_picture()));
+  micrograph().file = directory_ / "equal_*.bmp";
+  EXPECT_EQ(materials_of<3>(scene_), drawn_out);
+  EXPECT_EQ(built<3>(scene_).size(), Vec<3>(53e-6, 41e-6, 3e-6));
+}
+
+TEST_F(SharedSpecimen, WallsOfAStackAreNotGrown)
+{
+  scene_.dimensions = 3;
+  micrograph().depth = 2e-6;
+  for (const char* name : {"two_0.bmp", "two_1.bmp"}) {
+    Rows rows(20, std::vector<int>(20, 40));
+    for (auto& row : rows) std::fill_n(row.begin(), 8, 200);
+    directory_.write(name, gray_bmp(rows));
+  }
+  micrograph().file = directory_ / "two_*.bmp";
+  micrograph().threshold_rule = scene::ThresholdRule::target_relative_density;
+  micrograph().target_relative_density = 0.4;
+  EXPECT_NEAR(built<3>(scene_).densities()[0].value, 0.4, 0.01);
+  micrograph().target_relative_density = 0.7;
+  on_parts(2, [&](const Share& share) {
+    EXPECT_THAT(message_of([&] { built<3>(scene_, share); }),
+                testing::EndsWith("gives a relative density of 0.7; the walls of a stack are not "
+                                  "made thicker or thinner. Give another density, or a "
+                                  "threshold."));
+  });
 }
 
 TEST_F(SharedSpecimen, OfShapesInSpace)

@@ -220,15 +220,51 @@ TEST_F(Tiff, ResolutionOfAScreenIsNotTakenForAScale)
                                 "specimen.image_size or specimen.pixel_size."));
 }
 
+TEST_F(Tiff, PagesAreSlices)
+{
+  const auto file =
+      write({{.samples = {1, 2, 3, 4},
+              .resolution_unit = RESUNIT_CENTIMETER,
+              .pixels_across = 10'000,
+              .pixels_down = 5'000,
+              .description = "ImageJ=1.53t\nimages=3\nslices=3\n"},
+             {.samples = {5, 6, 7, 8}, .compression = COMPRESSION_LZW},
+             {.bits = 16, .samples = bytes_of({9 * 257, 10 * 257, 11 * 257, 12 * 257})}});
+  const GrayImage stack = read_image(file);
+  EXPECT_EQ(stack.slices, 3);
+  EXPECT_EQ(stack.height, 2);
+  EXPECT_THAT(stack.gray, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12));
+  ASSERT_TRUE(stack.pixel_size);
+  EXPECT_THAT(*stack.pixel_size, ElementsAre(DoubleNear(1e-6, 1e-15), DoubleNear(2e-6, 1e-15)));
+
+  scene::Scene scene;
+  scene.specimen.micrograph.emplace().file = file;
+  EXPECT_THAT(message_of([&] { read_picture(scene); }),
+              testing::EndsWith("picture.tif: is a stack of 3 slices, and the scene lies in the "
+                                "plane. Give specimen.depth, the thickness of all of them, or save "
+                                "the one slice to be modelled as a file of its own."));
+  scene.specimen.micrograph->depth = 3e-6;
+  scene.specimen.micrograph->crop = {0, 0, 2, 1};
+  scene.specimen.micrograph->rotate = 90;
+  const Picture picture = *read_picture(scene);
+  EXPECT_EQ(picture.image.slices, 3);
+  EXPECT_THAT(picture.image.gray, ElementsAre(2, 1, 6, 5, 10, 9));
+  EXPECT_THAT(picture.size, ElementsAre(DoubleNear(2e-6, 1e-15), DoubleNear(2e-6, 1e-15)));
+}
+
 // --------------------------------------------------------------------------------- refusals
 
-TEST_F(Tiff, StackIsRefused)
+TEST_F(Tiff, PagesOfTwoSizesAreRefused)
 {
-  EXPECT_EQ(error_of({{}, {}, {}}),
-            "is a TIFF of 3 pages. Save the one slice to be modelled as a TIFF of its own.");
-  EXPECT_EQ(
-      error_of({{.description = "ImageJ=1.53t\nimages=40\nslices=40\n"}}),
-      "is an ImageJ stack of 40 slices. Save the one slice to be modelled as a TIFF of its own.");
+  EXPECT_EQ(error_of({{}, {}, {.width = 1, .height = 4}}),
+            "slice 3 has 1 x 4 pixels, those before it 2 x 2. Give all slices one size.");
+}
+
+TEST_F(Tiff, SlicesWithoutPagesAreRefused)
+{
+  EXPECT_EQ(error_of({{.description = "ImageJ=1.53t\nimages=40\nslices=40\n"}}),
+            "is an ImageJ stack of 40 slices in 1 pages. Save what is to be modelled as an image "
+            "sequence, or as a stack of less than 4 GB.");
 }
 
 TEST_F(Tiff, FloatingPointSamplesAreRefused)
