@@ -257,7 +257,7 @@ def all_cases():
                                ("slices in the plane", {"s_1.png": png(), "s_2.png": png()}, "specimen.depth")]:
         add(Case(name, (words,), replace=[("wood.png", "s_*.png")], files=files))
     add(Case("slices without wall", ("no cell wall",), files={f"s_{k}.png": png(rows=[[10] * 20] * 20) for k in (1, 2)},
-             replace=[("wood.png", "s_*.png\n  depth: 10 um")]))
+             replace=[("wood.png", "s_*.png\n  depth: 10 um"), ("cells: [10, 10]", "cells: [10, 10, 3]")]))
     for name, replacement in [("that is not there", "none.png"), ("that is a folder", "."), ("without a name", '""'),
                               ("of another kind", "scene.yaml"), ("in a folder that is not there", "no/where/wood.png")]:
         add(Case(f"picture {name}", ("scene.yaml",), replace=[("wood.png", replacement)]))
