@@ -327,8 +327,10 @@ template <int Dim>
 std::size_t OverlapContact<Dim>::bytes() const
 {
   return cells_.size() * sizeof(Cell) + outlines_.size() * sizeof(CellOutline) +
-         pairs_.capacity() * sizeof(Pair) + near_.capacity() * sizeof(MeetingCells) +
-         found_.bytes() + values_.capacity() * sizeof(double) + boxes_.capacity() * sizeof(Box);
+         pairs_.capacity() * sizeof(Pair) + close_.capacity() * sizeof(Close) +
+         touched_.capacity() * sizeof(Touched) + pressing_.capacity() * sizeof(Pressing) +
+         near_.capacity() * sizeof(MeetingCells) + found_.bytes() +
+         values_.capacity() * sizeof(double) + boxes_.capacity() * sizeof(Box);
 }
 
 template class OverlapContact<2>;

@@ -56,11 +56,23 @@ GrayImage read_by_format(const std::filesystem::path& file)
 /// Whether a name is the pattern with any letters in place of each `*`.
 bool fits(std::string_view name, std::string_view pattern)
 {
-  if (pattern.empty()) return name.empty();
-  if (pattern.front() == '*')
-    return fits(name, pattern.substr(1)) || (!name.empty() && fits(name.substr(1), pattern));
-  return !name.empty() && name.front() == pattern.front() &&
-         fits(name.substr(1), pattern.substr(1));
+  // What follows a `*` is looked for as early as it can be: later ones find no less of the name.
+  std::size_t at = 0, expected = 0, star = pattern.npos, behind_star = 0;
+  while (at < name.size()) {
+    if (expected < pattern.size() && pattern[expected] == '*') {
+      star = expected++;
+      behind_star = at;
+    } else if (expected < pattern.size() && pattern[expected] == name[at]) {
+      ++expected;
+      ++at;
+    } else if (star != pattern.npos) {
+      expected = star + 1;
+      at = ++behind_star;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', expected) == pattern.npos;
 }
 
 /// `wood_9` before `wood_10`: numbers count as such.
@@ -124,25 +136,33 @@ GrayImage named_read(const std::filesystem::path& file)
   }
 }
 
+/// Of one file that fits a name.
+GrayImage read_slice(const std::filesystem::path& file)
+{
+  GrayImage slice = named_read(file);
+  if (slice.slices > 1)
+    throw InputError(
+        fmt::format("{}: is a stack of {} slices itself. Name it alone, without a `*`.",
+                    file.string(), slice.slices));
+  return slice;
+}
+
 GrayImage read_slices(const std::vector<std::filesystem::path>& files)
 {
-  GrayImage stack = named_read(files.front());
-  try {
-    check_dimensions(stack.width, stack.height, std::int64_t(files.size()));
-  } catch (const InputError& error) {
-    throw InputError(files.front().string() + " and those that follow: " + error.what());
-  }
-  for (std::size_t k = 0; k < files.size(); ++k) try {
-      const GrayImage slice = k == 0 ? stack : named_read(files[k]);
-      if (slice.slices > 1)
-        throw InputError(fmt::format(
-            "is a stack of {} slices itself. Name it alone, without a `*`.", slice.slices));
-      if (k > 0) add_slice(stack, slice);
+  GrayImage stack = read_slice(files.front());
+  const auto naming = [](const std::filesystem::path& file, const auto& action) {
+    try {
+      action();
     } catch (const InputError& error) {
-      const std::string name = files[k].string() + ": ";
-      const std::string said = error.what();
-      throw InputError(said.starts_with(name) ? said : name + said);
+      throw InputError(file.string() + ": " + error.what());
     }
+  };
+  naming(files.front(),
+         [&] { check_dimensions(stack.width, stack.height, std::int64_t(files.size())); });
+  for (std::size_t k = 1; k < files.size(); ++k) {
+    const GrayImage slice = read_slice(files[k]);
+    naming(files[k], [&] { add_slice(stack, slice); });
+  }
   return stack;
 }
 

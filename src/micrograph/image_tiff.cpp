@@ -198,7 +198,7 @@ GrayImage read_tiff(const std::filesystem::path& path)
   const int pages = TIFFNumberOfDirectories(file.get());
   GrayImage stack = read_page(file.get(), pages);
   for (int page = 1; page < pages; ++page) {
-    if (!TIFFSetDirectory(file.get(), std::uint16_t(page))) QuietTiff::fail();
+    if (!TIFFReadDirectory(file.get())) QuietTiff::fail();
     add_slice(stack, read_page(file.get(), pages));
   }
   return stack;

@@ -251,6 +251,8 @@ def all_cases():
                               ("TIFF whose pages go in a circle", tiff(pages=3, behind_last=408), "specimen.depth"),
                               ("TIFF of 400 M pixels in pages", tiff(width=1000, height=1000, pages=400), "too many")]:
         add(image(f"image: {name}", data, words, file="wood.tif"))
+    add(Case("a name of many stars", ("no file has such a name",), replace=[("wood.png", "a*" * 60 + "b")],
+             files={"a" * 200 + ".png": png()}))
     for name, files, words in [("no slices", {}, "no file has such a name"),
                                ("slices of two sizes", {"s_1.png": png(), "s_2.png": png(width=21)}, "s_2.png"),
                                ("a broken slice", {"s_1.png": png(), "s_2.png": b"no picture"}, "s_2.png"),

@@ -44,6 +44,8 @@ TEST_F(Image, FilesThatFitANameAreSlicesInTheOrderOfTheirNumbers)
   EXPECT_EQ(stack.height, 1);
   EXPECT_THAT(stack.gray, ElementsAre(1, 7, 2, 7, 3, 7, 10, 7));
   EXPECT_EQ(read_image(directory_ / "oth*").slices, 1);
+  EXPECT_EQ(read_image(directory_ / "*w*d*_*1*0*x*").slices, 1);
+  EXPECT_EQ(read_image(directory_ / "**_x.bmp**").slices, 3);
 }
 
 TEST_F(Image, SlicesThatDoNotFitAreNamed)
