@@ -274,21 +274,18 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
   // Faces that meet between two checks would press long before their cells are heavier: those that
   // may are taken to press twice as hard as flush ones do at first.
   constexpr double expected = 2;
-  std::vector<double> told(2 * sides_.size(), 0.0);  // of both values, as sides_
+  std::vector<double> told(sides_.size(), 0.0);  // as sides_: the stiffness of this rank's cells
   for (const Touched& pair : touched_)
-    for (const std::size_t side : {0, 1})
-      if (pair.cells[side] < cells() && pair.cells[1 - side] >= cells()) {
-        told[2 * std::size_t(pair.pair)] = pair.stiffness[side];
-        told[2 * std::size_t(pair.pair) + 1] = pair.share[side];
-      }
-  side_ghosts_.update(told, 2);
+    if (is_with_a_copy(pair.cells))
+      told[std::size_t(pair.pair)] = pair.stiffness[pair.cells[0] < cells() ? 0 : 1];
+  side_ghosts_.update(told, 1);
   std::vector<double> pressed(cells_.size(), 0.0);
   for (const Touched& pair : touched_)
     for (const std::size_t side : {0, 1}) {
       if (pair.cells[side] >= cells()) continue;
       const double other = pair.cells[1 - side] < cells()
                                ? pair.stiffness[1 - side]
-                               : told[2 * std::size_t(other_side_[std::size_t(pair.pair)])];
+                               : told[std::size_t(other_side_[std::size_t(pair.pair)])];
       pressed[std::size_t(pair.cells[side])] +=
           pair.share[side] * 0.5 * (pair.stiffness[side] + other);
     }

@@ -79,7 +79,7 @@ class Microscope {
   /// At the middle of each slice.
   std::vector<std::uint8_t> slices(double depth, int count) const
   {
-    const std::vector<double> scale = draw().wall_scale;
+    const std::vector<double> scale = wall_scale();
     const Grain& grain = *wood_.grain;
     Random random(seed_, Stream::ends);
     std::vector<double> end(cells_.size()), closed(cells_.size());
@@ -103,7 +103,7 @@ class Microscope {
     Drawing drawing;
     drawing.width = nx_;
     drawing.height = ny_;
-    if (wood_.density) solve(drawing);
+    drawing.wall_scale = wall_scale();
     drawing.gray = expose(drawing.wall_scale);
     if (wood_.density) drawing.density = densities(drawing.gray);
     drawing.lumens = lumens(drawing.wall_scale);
@@ -235,33 +235,33 @@ class Microscope {
 
   /// Bisection for all windows at once; they touch only in the cells on their common border, hence
   /// a second, narrow round.
-  void solve(Drawing& drawing) const
+  std::vector<double> wall_scale() const
   {
+    if (!wood_.density) return {};
     const auto& windows = wood_.density->windows;
     std::vector<double> low(windows.size(), 0.2), high(windows.size(), 4);
-    drawing.wall_scale.assign(windows.size(), 1);
+    std::vector<double> scale(windows.size(), 1);
     for (int round = 0; round < 2; ++round) {
       for (int step = 0; step < 12; ++step) {
+        for (std::size_t w = 0; w < windows.size(); ++w) scale[w] = (low[w] + high[w]) / 2;
+        const std::vector<double> reached = densities(expose(scale));
         for (std::size_t w = 0; w < windows.size(); ++w)
-          drawing.wall_scale[w] = (low[w] + high[w]) / 2;
-        const std::vector<double> reached = densities(expose(drawing.wall_scale));
-        for (std::size_t w = 0; w < windows.size(); ++w)
-          (reached[w] < windows[w].relative_density ? low : high)[w] = drawing.wall_scale[w];
+          (reached[w] < windows[w].relative_density ? low : high)[w] = scale[w];
       }
       for (std::size_t w = 0; w < windows.size(); ++w) {
-        low[w] = 0.97 * drawing.wall_scale[w];
-        high[w] = 1.03 * drawing.wall_scale[w];
+        low[w] = 0.97 * scale[w];
+        high[w] = 1.03 * scale[w];
       }
     }
-    const std::vector<double> reached = densities(expose(drawing.wall_scale));
+    const std::vector<double> reached = densities(expose(scale));
     for (std::size_t w = 0; w < windows.size(); ++w)
       if (std::abs(reached[w] - windows[w].relative_density) > 0.005)
         throw InputError(
             fmt::format("{}: density.windows[{}].relative_density is {:g} (walls scaled by {:.2f} "
                         "reach {:.3f}). "
                         "Change the wall or pitch of the cells there, or the density.",
-                        wood_.file.string(), w, windows[w].relative_density, drawing.wall_scale[w],
-                        reached[w]));
+                        wood_.file.string(), w, windows[w].relative_density, scale[w], reached[w]));
+    return scale;
   }
 
   std::vector<Point> lumens(const std::vector<double>& scale) const

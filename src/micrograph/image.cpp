@@ -127,13 +127,20 @@ std::vector<std::filesystem::path> files_of_image(const std::filesystem::path& p
 
 namespace {
 
-GrayImage named_read(const std::filesystem::path& file)
+/// Does what may be refused, and then with the file's name.
+template <class Action>
+auto naming(const std::filesystem::path& file, const Action& action)
 {
   try {
-    return read_by_format(file);
+    return action();
   } catch (const InputError& error) {
     throw InputError(file.string() + ": " + error.what());
   }
+}
+
+GrayImage named_read(const std::filesystem::path& file)
+{
+  return naming(file, [&] { return read_by_format(file); });
 }
 
 /// Of one file that fits a name.
@@ -150,13 +157,6 @@ GrayImage read_slice(const std::filesystem::path& file)
 GrayImage read_slices(const std::vector<std::filesystem::path>& files)
 {
   GrayImage stack = read_slice(files.front());
-  const auto naming = [](const std::filesystem::path& file, const auto& action) {
-    try {
-      action();
-    } catch (const InputError& error) {
-      throw InputError(file.string() + ": " + error.what());
-    }
-  };
   naming(files.front(),
          [&] { check_dimensions(stack.width, stack.height, std::int64_t(files.size())); });
   for (std::size_t k = 1; k < files.size(); ++k) {

@@ -111,15 +111,15 @@ std::optional<std::array<double, 2>> pixel_size(TIFF* file)
   return std::array{*length / across, *length / down};
 }
 
-void check_suitable(TIFF* file)
+void check_suitable(TIFF* file, int pages)
 {
   // Stacks beyond 4 GB name their slices in the description only.
   const std::string_view slices = imagej_entry(description(file), "images");
-  if (!slices.empty() && slices != fmt::format("{}", int(TIFFNumberOfDirectories(file))))
+  if (!slices.empty() && slices != fmt::format("{}", pages))
     throw InputError(fmt::format(
         "is an ImageJ stack of {} slices in {} pages. Save what is to be modelled as an "
         "image sequence, or as a stack of less than 4 GB.",
-        slices, int(TIFFNumberOfDirectories(file))));
+        slices, pages));
   const int orientation = tag<std::uint16_t>(file, TIFFTAG_ORIENTATION);
   if (orientation != ORIENTATION_TOPLEFT)
     throw InputError(fmt::format(
@@ -176,7 +176,7 @@ GrayImage read_rgba(TIFF* file, int width, int height)
 
 GrayImage read_page(TIFF* file, int pages)
 {
-  check_suitable(file);
+  check_suitable(file, pages);
   const auto width = tag<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH);
   const auto height = tag<std::uint32_t>(file, TIFFTAG_IMAGELENGTH);
   check_dimensions(width, height, pages);

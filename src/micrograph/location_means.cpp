@@ -21,8 +21,8 @@ void for_each_overlap(std::int64_t pixels, std::int64_t parts, std::int64_t part
 }
 
 /// Adds to the sums of a layer's rectangles what one slice has of them.
-void add_slice(const double* slice, int width, int height, double overlap_of_slice,
-               const IndexVec<2>& count, const IndexBox<2>& part, double* sum_of_rectangle)
+void add_sums(const double* slice, int width, int height, double overlap_of_slice,
+              const IndexVec<2>& count, const IndexBox<2>& part, double* sum_of_rectangle)
 {
   const std::int64_t nx = count[0], ny = count[1];
   // The columns of pixels that the part touches.
@@ -59,7 +59,7 @@ std::vector<double> location_means(const GrayImage& image, const IndexVec<Dim>& 
   const IndexBox<2> rectangles{part.lower.template head<2>(), part.upper.template head<2>()};
   const auto add = [&](std::size_t slice, double overlap, double* layer) {
     const double* gray = &image.gray[slice * std::size_t(image.width) * std::size_t(image.height)];
-    add_slice(gray, image.width, image.height, overlap, of_layer, rectangles, layer);
+    add_sums(gray, image.width, image.height, overlap, of_layer, rectangles, layer);
   };
   double units = double(image.width) * image.height;  // of an area, in space of a volume
   if constexpr (Dim == 2) {

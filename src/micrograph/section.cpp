@@ -236,12 +236,12 @@ void Section<Dim>::leave_out_removed(const IndexBox<Dim>& part,
 {
   if (removed_.empty() || part.empty()) return;
   const LocalIndex width = part.count()[0];
+  const Lattice<Dim> numbers{count_, part, {}, {}};
   IndexBox<Dim> rows = part;
   rows.upper[0] = rows.lower[0] + 1;
   auto first = materials.begin();
   for_each_index(rows, [&](const IndexVec<Dim>& at) {
-    GlobalIndex row = 0;
-    for (int d = Dim - 1; d > 0; --d) row = row * count_[d] + at[d];
+    const GlobalIndex row = numbers.id(at) / count_[0];
     for (auto run = std::ranges::lower_bound(removed_, row, {}, &Run::row);
          run != removed_.end() && run->row == row; ++run) {
       const LocalIndex begin = std::max(run->begin, part.lower[0]) - part.lower[0];

@@ -162,8 +162,7 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
           {.decides = true, .default_text = "none"},
           "picture of a section: BMP, PNG or TIFF, gray or colour; or how to draw one: "
           "*.anatomy.yaml; with depth also a stack of slices: a TIFF of many pages, or all files "
-          "that "
-          "fit a name such as `slice_*.png`, the first at the back"),
+          "that fit a name such as `slice_*.png`, the first at the back"),
       image_member("seed", &I::seed, {.bound = at_least(0), .default_text = "that of the file"},
                    "another piece of the same kind of wood")
           .when(from_drawing),

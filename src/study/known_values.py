@@ -4,8 +4,8 @@ import dataclasses
 from checked_keys import known, quantity
 from mpm_par.quantities import to_si
 
-KEYS = ("source", "runs", "run_time")
-NEEDED = KEYS[:2]
+NEEDED = ("source", "runs")
+KEYS = (*NEEDED, "run_time")
 
 
 @dataclasses.dataclass(frozen=True)
