@@ -21,6 +21,13 @@ constexpr double significant_gain = 0.2;
 /// A plateau is clearly less steep than the elastic line. Wood loaded along its rays hardens as it
 /// collapses: drawn poplar in tangential compression keeps 0.6 of its first slope.
 constexpr double softening = 0.7;
+/// A toe is clearly less steep than what follows, and low beside it: half of the knee's stress.
+constexpr double stiffening = 1.5;
+constexpr double low_toe = 0.5;
+constexpr double toe_reach = 0.005;
+/// What is shorter than that may be a start-up, or some periods of ringing.
+constexpr double smallest_toe = 0.01;
+constexpr double ringing_of_toe = 2.5;
 constexpr int curve_bins = 400;
 constexpr double tangent_reach = 0.03;
 constexpr std::size_t fewest_points = 12;
@@ -65,14 +72,51 @@ std::optional<Line> fit_elastic(const SampledCurve& curve, const Window& window,
   return fit_line_under_ringing(part.strain, part.stress, ringing);
 }
 
-std::optional<Knee> softening_knee(const SampledCurve& fine, double end)
+std::optional<Knee> softening_knee(const SampledCurve& fine, double begin, double end)
 {
+  const Stretch part = between(fine, begin, knee_range);
   const std::optional<Knee> knee =
-      fit_knee(fine.strain, fine.stress, smallest_knee, std::min(largest_knee, end));
+      fit_knee(part.strain, part.stress, begin + smallest_knee, std::min(largest_knee, end));
   if (!knee || knee->gain < significant_gain || knee->slope_before <= 0 ||
       knee->slope_after > softening * knee->slope_before)
     return std::nullopt;
   return knee;
+}
+
+/// Strain at which a first, soft part of the curve ends: slots across the whole specimen that close
+/// first (lumens of rays in tangential compression), or uneven faces in a test. `line`: of the
+/// steep part from there to the knee, if there is one.
+struct SoftStart {
+  double end;
+  std::optional<Knee> knee;
+  Line line;
+};
+
+std::optional<SoftStart> find_soft_start(const SampledCurve& curve, const SampledCurve& fine,
+                                         double end, double ringing)
+{
+  const std::vector<double> tangent = local_slope(fine, toe_reach);
+  const auto range = std::upper_bound(fine.strain.begin(), fine.strain.end(), largest_knee);
+  const auto steepest =
+      std::max_element(tangent.begin(), tangent.begin() + (range - fine.strain.begin()));
+  const double steepest_at = fine.strain[std::size_t(steepest - tangent.begin())];
+  const double least = std::max(smallest_toe, ringing_of_toe * ringing);
+  if (steepest_at <= least) return std::nullopt;
+  const Stretch start = between(fine, 0, steepest_at + toe_reach);
+  const std::optional<Knee> toe = fit_knee(start.strain, start.stress, least, steepest_at);
+  if (!toe || toe->gain < significant_gain || toe->slope_before <= 0 ||
+      toe->slope_after < stiffening * toe->slope_before)
+    return std::nullopt;
+
+  const double from = toe->position;
+  const std::optional<Knee> knee = softening_knee(fine, from, end);
+  const double length = (knee ? knee->position : std::min(end, knee_range)) - from;
+  const std::optional<Line> line =
+      fit_between(curve, from + 0.25 * length, from + 0.75 * length, 5);
+  if (!line || line->slope < stiffening * toe->slope_before ||
+      toe->slope_before * from > low_toe * (*line)(from + length))
+    return std::nullopt;
+  return SoftStart{from, knee, *line};
 }
 
 /// The straight part after the knee; its end is where the tangent starts to rise for good.
@@ -166,9 +210,12 @@ CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& op
     return found;
   }
 
-  const std::optional<Knee> knee = softening_knee(fine, end);
-  const Window window =
-      elastic_window(knee ? knee->position : std::min(end, knee_range), options.discard_strain);
+  const std::optional<SoftStart> soft_start =
+      find_soft_start(curve, fine, end, options.ringing_strain);
+  const std::optional<Knee> knee = soft_start ? soft_start->knee : softening_knee(fine, 0, end);
+  const double first_end =
+      soft_start ? soft_start->end : (knee ? knee->position : std::min(end, knee_range));
+  const Window window = elastic_window(first_end, options.discard_strain);
   const std::optional<Line> elastic = fit_elastic(curve, window, options.ringing_strain);
   if (elastic && elastic->slope > 0) {
     found.modulus = elastic->slope;
@@ -178,6 +225,8 @@ CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& op
                fmt::format("No modulus: no rising line between {:.2g} and {:.2g} % strain.",
                            100 * window.from, 100 * window.to));
   }
+  if (soft_start)
+    found.toe = Toe{-soft_start->line.intercept / soft_start->line.slope, soft_start->line.slope};
   if (!knee) {
     add_remark(found.remark, "No onset of buckling: no knee in the first 12 % strain.");
     return found;
@@ -186,13 +235,21 @@ CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& op
   const SampledCurve binned = bin_average(curve, end, curve_bins);
   found.energy_efficiency = most_efficient(binned, knee->position);
   if (!found.modulus) return found;
-  const std::optional<Plateau> plateau = find_plateau(binned, knee->position, *found.modulus);
+  const Line rise = soft_start ? soft_start->line : *elastic;
+  const std::optional<Plateau> plateau = find_plateau(binned, knee->position, rise.slope);
   if (plateau) {
     found.plateau_slope = plateau->line.slope;
-    found.buckling = meeting(*elastic, plateau->line);
+    found.buckling = meeting(rise, plateau->line);
   }
   if (!found.buckling) {
     add_remark(found.remark, "No onset of buckling: the curve ends before a plateau.");
+    return found;
+  }
+  if (found.buckling->strain > knee_range) {
+    found.buckling.reset();
+    add_remark(
+        found.remark,
+        "No onset of buckling: the lines before and after the knee meet beyond 12 % strain.");
     return found;
   }
   if (const std::optional<Line> dense =

@@ -25,6 +25,13 @@ void describe(const CompressionProperties& properties, output::Summary& section)
   section.set("modulus", properties.modulus);
   section.set("modulus_error", properties.modulus_error);
   section.set("elastic_intercept", properties.elastic_intercept);
+  if (properties.toe) {
+    output::Summary& toe = section.section("toe");
+    toe.set("strain", properties.toe->strain);
+    toe.set("modulus", properties.toe->modulus);
+  } else {
+    section.set("toe", std::optional<double>());
+  }
   describe_point(properties.buckling, "buckling", section);
   describe_point(properties.densification, "densification", section);
   section.set("plateau_slope", properties.plateau_slope);

@@ -76,6 +76,10 @@ void print_table(const CompressionProperties& properties)
                properties.elastic_intercept / 1e6);
   else
     fmt::print("{:24}-\n", "modulus E");
+  if (properties.toe)
+    fmt::print("{:24}{:.0f} MPa from {:.2f} % strain on, where that line has no stress\n",
+               "modulus beyond the toe", properties.toe->modulus / 1e6,
+               100 * properties.toe->strain);
   print_point("onset of buckling", properties.buckling);
   print_point("onset of densification", properties.densification);
   print_point("best energy efficiency", properties.energy_efficiency);

@@ -71,6 +71,7 @@ template <int Dim>
 Carried<Dim> TotalLagrangian<Dim>::carried() const
 {
   Carried<Dim> carried;
+  double added_mass = 0;
   for (LocalIndex node = 0; node < nodes_->size(); ++node) {
     if (!nodes_->is_owned(node) || is_rigid(node)) continue;
     const double mass = fields_->mass_of(node);
@@ -78,8 +79,9 @@ Carried<Dim> TotalLagrangian<Dim>::carried() const
     const Eigen::Map<const Vec<Dim>> velocity(u);
     carried.kinetic_energy += 0.5 * mass * velocity.squaredNorm();
     carried.momentum += mass * velocity;
-    carried.added_mass += mass - first_masses_[std::size_t(node)];
+    added_mass += mass - first_masses_[std::size_t(node)];
   }
+  if (setup_.mass_scaling > 0) carried.added_mass = added_mass;
   for (std::size_t b = 0; b < cells_.size(); ++b)
     carried.elastic_energy += cells_[b].bending_energy(setup_.bodies[b], *nodes_);
   if (contact_)

@@ -87,7 +87,7 @@ double Cell::lumen_depth(Point p, double scale) const
     nearest = std::min(nearest, from_rim);
     if (from_rim < radius) sum += squared(radius - from_rim);
   }
-  return sum > 0 ? radius - std::sqrt(sum) : nearest;
+  return (sum > 0 ? radius - std::sqrt(sum) : nearest) - style.filled * inradius;
 }
 
 Cell make_cell(const Polygon& polygon, CellStyle style, double wall_scatter, Random& random)

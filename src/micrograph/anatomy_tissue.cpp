@@ -256,7 +256,7 @@ class Tissue {
                               {x + length - next_slant, top},
                               {x + length + next_slant, bottom},
                               {x + slant, bottom}};
-        const CellStyle style = scattered({rays.wall, 0.7}, random);
+        const CellStyle style = scattered({rays.wall, 0.7, rays.filled}, random);
         cells_.push_back(make_cell(polygon, style, wood_.irregularity.wall, random));
         x += length;
         slant = next_slant;

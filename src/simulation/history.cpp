@@ -48,7 +48,8 @@ HistoryKind History<Dim>::kind() const
           start_.contact.has_value(),
           formulation_.has_friction(),
           Dim == 3,
-          start_.failed.has_value()};
+          start_.failed.has_value(),
+          start_.added_mass.has_value()};
 }
 
 template <int Dim>
@@ -181,6 +182,7 @@ const HistoryLine& History<Dim>::record(double dt)
     line.failed_cells = sums.failed->cells;
     line.failed_energy = sums.failed->energy;
   }
+  line.added_mass = sums.added_mass.value_or(0) / sums.mass;
   begin_line(line);
   if (apparatus_) {
     line.strain = apparatus_->strain(line.time);

@@ -26,6 +26,7 @@ constexpr Member<double> measured[] = {{"time", &HistoryLine::time},
                                        {"overlapped_area", &HistoryLine::overlapped_area},
                                        {"friction_work", &HistoryLine::friction_work},
                                        {"failed_energy", &HistoryLine::failed_energy},
+                                       {"added_mass", &HistoryLine::added_mass},
                                        {"energy_error", &HistoryLine::energy_error},
                                        {"momentum_error", &HistoryLine::momentum_error},
                                        {"time_step", &HistoryLine::time_step}};
@@ -78,6 +79,7 @@ std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind)
     list.push_back({"failed_cells", "1"});
     list.push_back({"failed_energy", "J"});
   }
+  if (kind.added_mass) list.push_back({"added_mass", "1"});
   list.push_back({"energy_error", "1"});
   list.push_back({"momentum_error", "1"});
   list.push_back({"particles", "1"});
@@ -103,6 +105,7 @@ std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind
                   {line.contact_energy, line.overlapped_area, double(line.contact_pairs)});
   if (kind.friction) values.push_back(line.friction_work);
   if (kind.failure) values.insert(values.end(), {double(line.failed_cells), line.failed_energy});
+  if (kind.added_mass) values.push_back(line.added_mass);
   values.insert(values.end(),
                 {line.energy_error, line.momentum_error, double(line.particles), line.time_step});
   if (kind.piston)

@@ -13,7 +13,7 @@ Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation)
   const FailedCells failed = carried.failed.value_or(FailedCells{});
   std::array<GlobalIndex, 5> counts{0, 0, carried.contact ? carried.contact->pairs : 0,
                                     failed.cells, failed.id_sum};
-  std::array<double, 10 + Dim> sums{};
+  std::array<double, 11 + Dim> sums{};
   sums[1] = carried.kinetic_energy;
   sums[2] = carried.elastic_energy;
   if (carried.contact) {
@@ -25,6 +25,7 @@ Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation)
   sums[7 + Dim] = failed.mass;
   sums[8 + Dim] = failed.energy;
   sums[9 + Dim] = failed.plastic_work;
+  sums[10 + Dim] = carried.added_mass.value_or(0);
   for (const Body<Dim>& body : formulation.bodies()) {
     const ParticleStore& particles = body.particles;
     counts[0] += particles.size();
@@ -50,6 +51,7 @@ Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation)
   if (carried.contact) result.contact = {sums[4], sums[5], counts[2], sums[6]};
   if (carried.failed)
     result.failed = {counts[3], counts[4], sums[7 + Dim], sums[8 + Dim], sums[9 + Dim]};
+  if (carried.added_mass) result.added_mass = sums[10 + Dim];
   return result;
 }
 

@@ -100,6 +100,9 @@ void print(const analysis::CompressionProperties& found)
       fmt::print("{:<24}        - (not reached or not distinct)\n", what);
   };
   if (found.modulus) fmt::print("{:<24} {:8.0f} MPa\n", "modulus", 1e-6 * *found.modulus);
+  if (found.toe)
+    fmt::print("{:<24} {:8.0f} MPa from {:.2f} %\n", "modulus beyond the toe",
+               1e-6 * found.toe->modulus, 100 * found.toe->strain);
   point("onset of buckling", found.buckling);
   point("onset of densification", found.densification);
 }

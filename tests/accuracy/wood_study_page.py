@@ -7,6 +7,7 @@
     wood_study_page.py            writes the page anew
     wood_study_page.py --check    only says whether the page is the one that would be written
 """
+import csv
 import shutil
 import sys
 from pathlib import Path
@@ -15,13 +16,14 @@ import runs  # noqa: F401  (which makes the project's modules known)
 from words import filled_in, finished
 from written_page import table, write_or_check
 
-from mpm_par.report import facts, study_facts
+from mpm_par.report import facts, studies, study_facts, theory
 from mpm_par.study import read_study, study_folders
 
 PAGE = runs.PROJECT / "docs" / "wood_study.md"
 FOLDER = runs.PROJECT / "docs" / "wood_study"
 TEXT = Path(__file__).with_name("wood_study_page.md")
 KEPT = ("study.csv", "study.json")
+THEORY = {"foam": theory.honeycomb_rows, "layers": theory.layer_rows}  # of runs, which are not kept
 PLASTIC_WORK, AXIAL_STRESS = "plastic_work", "axial_stress"
 FRAMES = {"wood_yield": ((3, PLASTIC_WORK), (4, PLASTIC_WORK)),  # runs, from 1 on
           "wood_poplar": ((1, PLASTIC_WORK), (2, PLASTIC_WORK), (1, AXIAL_STRESS), (2, AXIAL_STRESS)),
@@ -35,6 +37,13 @@ def take(results):
         place.mkdir(parents=True, exist_ok=True)
         for name in KEPT:
             shutil.copyfile(folder / name, place / name)
+        study = read_study(folder)
+        runs_of_it = studies.opened(study, folder)
+        for name, rows_of in THEORY.items():
+            titles, rows = rows_of(study, runs_of_it)
+            if rows:
+                with open(place / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
+                    csv.writer(file, lineterminator="\n").writerows([titles, *rows])
         for picture in (Path(results) / "report").glob(f"{folder.name}_curves.png"):
             shutil.copyfile(picture, FOLDER / picture.name)
         for number, colour in FRAMES.get(folder.name, ()):
@@ -73,6 +82,11 @@ def values():
     found = {"took": took()}
     for folder in study_folders(FOLDER):
         study = read_study(folder)
+        for name in THEORY:
+            if (folder / f"{name}.csv").exists():
+                with open(folder / f"{name}.csv", newline="", encoding="utf-8") as file:
+                    titles, *rows = csv.reader(file)
+                found[f"{folder.name}_{name}"] = table(titles, rows)
         found[f"{folder.name}_figures"] = table(*study_facts.figures(study))
         known = study_facts.beside_known(study)
         if known[1]:

@@ -182,5 +182,22 @@ class ConfinedCompression(ExactLine):
         self.assertLess(errors[2], 0.015, errors)
 
 
+class AddedMass(ProgramTest):
+    """Every cell of the block has the stretch 1 - e along the piston's way."""
+    SETTINGS = ["numerics.formulation=total_lagrangian", "loading.speed=50 m/s",
+                "loading.strain=0.4", "output.history_lines=40"]
+
+    def test_is_what_makes_narrow_cells_as_slow_as_those_of_the_bound(self):
+        history = History(self.results("confined_block", *self.SETTINGS, ranks=2))
+        for strain, added in zip(history["strain"], history["added_mass"]):
+            self.assertAlmostEqual(added, max(0, (0.8 / (1 - strain)) ** 2 - 1), delta=0.02)
+        self.assertGreater(history["added_mass"][-1], 0.7)
+
+    def test_has_no_column_where_no_cell_may_be_heavier(self):
+        folder = self.results("confined_block", *self.SETTINGS, "numerics.mass_scaling=0",
+                              "steps=40", ranks=1)
+        self.assertNotIn("added_mass", History(folder).names)
+
+
 if __name__ == "__main__":
     unittest.main()

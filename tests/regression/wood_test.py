@@ -83,6 +83,8 @@ class Wood(ProgramTest):
         self.assertGreater(max(history["contact_pairs"]), 0)
         wall = found["relative_density"] * 0.832e-3 * 0.541e-3  # m2
         self.assertLess(max(history["overlapped_area"]), 1e-3 * wall)
+        self.assertEqual(history["added_mass"][0], 0)
+        self.assertLess(history["added_mass"][-1], 0.5)
 
     def test_both_ends_feel_the_same_force_once_the_wood_collapses(self):
         history, _ = self.crush("loblolly_radial", 0.12)

@@ -23,7 +23,8 @@ class ShippedStudies(unittest.TestCase):
                 self.assertIsNotNone(full.along)
 
     def test_of_the_founding_paper_are_understood_and_stand_beside_its_table(self):
-        """Nairn 2006, Table 1: ten rows with onsets (two have none), each its own modulus."""
+        """Nairn 2006, Table 1: ten rows with onsets (two have none), each its own modulus, and five of
+        them again beside woods with solid rays."""
         rows = []
         for path in WOOD:
             with self.subTest(path.name):
@@ -35,7 +36,13 @@ class ShippedStudies(unittest.TestCase):
                 known = [full.known_of(run) for run in full.combinations]
                 self.assertEqual(known, [quick.known_of(run) for run in quick.combinations]
                                  if any(known) else known)
+                for found in filter(None, known):
+                    self.assertEqual(found.pop("modulus_beyond_toe", found["modulus"]), found["modulus"])
                 rows += [(full.title.split()[0], *found.values()) for found in known if found]
+        solid_rays = [row for row in rows if row[0] == "Woods"]
+        rows = [row for row in rows if row not in solid_rays]
+        self.assertEqual(len(solid_rays), 5)
+        self.assertLessEqual({row[1:] for row in solid_rays}, {row[1:] for row in rows})
         self.assertEqual(len(rows), 11)
         self.assertEqual(sorted({row[1] / 1e6 for row in rows}), [648, 2479, 2740, 3252, 3731])
         self.assertEqual(sum(len(row) == 6 for row in rows), 9)

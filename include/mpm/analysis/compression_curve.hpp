@@ -15,10 +15,18 @@ struct CurvePoint {
   double stress_error = 0;
 };
 
+/// Where a soft start gives way to a steeper line: what is read off a test after toe compensation
+/// (ASTM D695, annex A1), with strains from where that line is free of stress.
+struct Toe {
+  double strain;   ///< at which the steep line would have no stress
+  double modulus;  ///< Pa, of the steep line
+};
+
 struct CompressionProperties {
   std::optional<double> modulus;  ///< Pa, slope of the linear part; line not forced through 0
   double modulus_error = 0;
   double elastic_intercept = 0;  ///< Pa, of that line at zero strain
+  std::optional<Toe> toe;        ///< of a curve that has one; strains of the onsets hold it
   std::optional<CurvePoint> buckling;
   std::optional<CurvePoint> densification;
   std::optional<double> plateau_slope;          ///< Pa, of the line through both onsets

@@ -13,8 +13,9 @@ struct Point {
 
 /// What every cell of one sort has in common.
 struct CellStyle {
-  double wall;       ///< um, from the polygon's edge to the lumen: half of the double wall
-  double roundness;  ///< of the lumen's corners: 0 polygon, 1 as round as its width allows
+  double wall;        ///< um, from the polygon's edge to the lumen: half of the double wall
+  double roundness;   ///< of the lumen's corners: 0 polygon, 1 as round as its width allows
+  double filled = 0;  ///< of the cell's inner radius, what lies on the wall and narrows the lumen
 };
 
 /// Half-plane normal . p <= offset; the normal points out of the cell and has length 1.

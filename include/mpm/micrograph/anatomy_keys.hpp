@@ -65,6 +65,7 @@ inline constexpr Row<Rays> rays_rows[] = {
     {"cell_length", &Rays::cell_length, 2, 1e4, "um", "radial size of a ray cell"},
     {"wall", &Rays::wall, 0.1, 100, "um", "wall of one ray cell"},
     {"rows", &Rays::rows, 1, 20, "", "ray cells side by side"},
+    {"filled", &Rays::filled, 0, 1, "", "how far ray cells are filled: 0 open lumens, 1 solid"},
 };
 inline constexpr Row<Vessels> vessels_rows[] = {
     {"per_mm2", &Vessels::per_mm2, 0, 1e4, "1/mm2", "number of vessels"},

@@ -44,7 +44,7 @@ struct GrowthRing {
 };
 
 struct Rays {
-  double spacing = 200, cell_height = 12, cell_length = 90, wall = 1.8;
+  double spacing = 200, cell_height = 12, cell_length = 90, wall = 1.8, filled = 0;
   int rows = 1;
 };
 

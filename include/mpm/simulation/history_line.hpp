@@ -33,6 +33,7 @@ struct HistoryLine {
   double friction_work = 0;       ///< J, in contact between bodies, since the start
   GlobalIndex failed_cells = 0;   ///< since the start
   double failed_energy = 0;       ///< J, that they had stored
+  double added_mass = 0;          ///< of the cells' own, by which they are heavier at present
   double time_step = 0;           ///< s
   GlobalIndex behind_piston = 0, outside_walls = 0;  ///< particles
 
@@ -41,10 +42,10 @@ struct HistoryLine {
 };
 
 /// What a history can have: stresses with a piston, one more with a load cell; contact; friction;
-/// cells that fail.
+/// cells that fail; cells that are made heavier.
 struct HistoryKind {
   bool piston = false, load_cell = false, contact = false, friction = false, space = false,
-       failure = false;
+       failure = false, added_mass = false;
 };
 std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind);
 std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind);

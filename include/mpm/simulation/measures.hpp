@@ -22,6 +22,7 @@ struct Sums {
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
   std::optional<ContactSums> contact{};
   std::optional<FailedCells> failed{};
+  std::optional<double> added_mass{};  ///< kg, as in Carried
 
   /// Work of the stresses, stored or dissipated, and what contact stores, J.
   double stress_work() const

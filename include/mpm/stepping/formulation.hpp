@@ -52,7 +52,8 @@ struct Carried {
   double kinetic_energy = 0;             ///< J
   Vec<Dim> momentum = Vec<Dim>::Zero();  ///< kg m/s
   double elastic_energy = 0;             ///< J, beside that of the particles' laws
-  double added_mass = 0;                 ///< kg, by which cells were made heavier for longer steps
+  /// kg, by which cells are heavier at present for longer steps; where they may be.
+  std::optional<double> added_mass{};
   /// Of the contact of bodies with themselves and others, and with walls that push, where there is
   /// one.
   std::optional<ContactSums> contact{};

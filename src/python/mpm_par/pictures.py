@@ -65,12 +65,19 @@ def _lines(axes, properties, top, end):
     buckling, dense = properties.get("buckling"), properties.get("densification")
     style = {"color": RED, "lw": 1.1, "zorder": 4}
     modulus = properties.get("modulus")
+    toe = properties.get("toe")
     if modulus:
         start = properties.get("elastic_intercept") or 0.0
-        reach = min(1.6 * buckling["strain"] if buckling else 0.3 * end,
+        line_end = toe or buckling
+        reach = min(1.6 * line_end["strain"] if line_end else 0.3 * end,
                     0.92 * (top - start) / modulus)
         axes.plot([0, 100 * reach], [start / 1e6, (start + modulus * reach) / 1e6], ls="--",
                   label=f"modulus {modulus / 1e6:.0f} MPa", **style)
+    if toe:
+        rise = min(1.2 * buckling["stress"] if buckling else 0.3 * end * toe["modulus"], 0.92 * top)
+        axes.plot([100 * toe["strain"], 100 * (toe["strain"] + rise / toe["modulus"])],
+                  [0, rise / 1e6], ls=(0, (6, 2)),
+                  label=f"beyond the toe {toe['modulus'] / 1e6:.0f} MPa", **style)
     if buckling:
         slope = properties["plateau_slope"]
         to = dense["strain"] if dense else end

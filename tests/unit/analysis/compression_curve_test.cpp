@@ -14,6 +14,7 @@ using synthetic::Curve;
 using synthetic::noisy;
 using synthetic::sample;
 using synthetic::wood;
+using synthetic::wood_with_a_toe;
 using ::testing::HasSubstr;
 
 CompressionProperties read(const Curve& curve, const CurveOptions& options = {})
@@ -59,6 +60,53 @@ TEST_P(DisturbedWood, StatedErrorCoversTheModulusAndIsNotIdle)
   const double rounded_corner = 0.03 * synthetic::modulus;
   EXPECT_LT(std::abs(*found.modulus - synthetic::modulus), found.modulus_error + rounded_corner);
   EXPECT_LT(found.modulus_error, 3 * share * synthetic::modulus + 5e6);
+}
+
+TEST_P(DisturbedWood, OnsetBehindASoftStartIsThatOfTheSteepLine)
+{
+  using namespace synthetic;
+  const auto [share, modulus_tolerance] = GetParam();
+  const CompressionProperties found = read(noisy(sample(wood_with_a_toe, 0.6, 12000), share));
+  ASSERT_TRUE(found.modulus && found.toe && found.buckling && found.densification);
+  // Noise of a share of the knee's 54 MPa in a line that rises by 36 MPa.
+  EXPECT_NEAR(*found.modulus, soft_modulus, 0.02 * soft_modulus + share * 2000e6);
+  EXPECT_NEAR(found.toe->modulus, steep_modulus, 0.05 * steep_modulus);
+  const double rise = (steep_modulus - soft_modulus) * (steep_end - soft_end);
+  EXPECT_NEAR(found.toe->strain, soft_end - soft_modulus * soft_end / steep_modulus, 0.002);
+  EXPECT_NEAR(found.buckling->strain, steep_end, 0.002);
+  EXPECT_NEAR(found.buckling->stress, soft_modulus * steep_end + rise, 6e6);
+  EXPECT_EQ(found.remark, "");
+}
+
+TEST_P(DisturbedWood, HasNoToe)
+{
+  EXPECT_FALSE(read(noisy(sample(wood, 0.6, 12000), GetParam().share)).toe);
+}
+
+TEST(CompressionCurve, SoftStartWithoutAKneeHasAToeAndNoBuckling)
+{
+  const CompressionProperties found = read(sample(
+      [](double strain) { return 900e6 * strain + 3600e6 * synthetic::ramp(strain - 0.04, 0.001); },
+      0.3, 3000));
+  ASSERT_TRUE(found.modulus && found.toe);
+  EXPECT_NEAR(*found.modulus, 900e6, 10e6);
+  EXPECT_NEAR(found.toe->modulus, 4500e6, 20e6);
+  EXPECT_FALSE(found.buckling);
+  EXPECT_THAT(found.remark, HasSubstr("no knee"));
+}
+
+TEST(CompressionCurve, LinesThatMeetFarFromTheKneeAreNoOnset)
+{
+  // Steeper beyond 4 %, not enough for a toe: the first line passes below the knee.
+  const CompressionProperties found = read(sample(
+      [](double strain) {
+        return 400e6 * strain + 180e6 * synthetic::ramp(strain - 0.04, 0.001) -
+               330e6 * synthetic::ramp(strain - 0.085, 0.001);
+      },
+      0.5, 5000));
+  EXPECT_TRUE(found.modulus);
+  EXPECT_FALSE(found.buckling);
+  EXPECT_THAT(found.remark, HasSubstr("meet beyond 12 % strain"));
 }
 
 TEST(CompressionCurve, LineIsNotForcedThroughTheOrigin)

@@ -36,6 +36,20 @@ inline double wood(double strain)
          30e9 * dense * dense;
 }
 
+// Tangential compression of the shipped loblolly: lumens of rays close first, then the wood bears.
+constexpr double soft_modulus = 900e6;
+constexpr double steep_modulus = 4500e6;
+constexpr double soft_end = 0.04;
+constexpr double steep_end = 0.08;
+
+/// A soft start, a steep line, a plateau and a denser part; corners rounded.
+inline double wood_with_a_toe(double strain)
+{
+  return soft_modulus * strain + (steep_modulus - soft_modulus) * ramp(strain - soft_end, 0.002) -
+         (steep_modulus - 800e6) * ramp(strain - steep_end, 0.0035) +
+         6e9 * ramp(strain - 0.35, 0.004);
+}
+
 template <class Stress>
 Curve sample(Stress&& stress, double end, int count)
 {

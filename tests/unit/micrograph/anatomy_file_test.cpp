@@ -2,6 +2,7 @@
 #include <mpm/micrograph/anatomy_drawing.hpp>
 #include <mpm/micrograph/anatomy_parameters.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -72,6 +73,29 @@ TEST_F(ParameterFile, ThickerWallsMakeDenserWood)
   const double thin = density("2"), medium = density("4"), thick = density("6");
   EXPECT_LT(thin + 0.1, medium);
   EXPECT_LT(medium + 0.1, thick);
+}
+
+TEST_F(ParameterFile, FilledRaysAreSolidBandsAcrossTheSection)
+{
+  // Rows of the picture, pixel by pixel, that hold nothing but wall.
+  const auto solid_rows = [&](const std::string& rays) {
+    const Parameters wood = read_parameters(
+        written("picture: {width_px: 100, height_px: 150, width: 100, height: 150}\n"
+                "irregularity: {wave: 0}\ngray: {noise: 0, shading: 0}\nrays: {" +
+                rays + "}\n"));
+    const Walls pixels(draw(wood, 1), 100, 150);
+    int rows = 0;
+    for (int j = 0; j < pixels.ny; ++j) {
+      const auto row = pixels.wall.begin() + std::ptrdiff_t(j) * pixels.nx;
+      rows += std::all_of(row, row + pixels.nx, [](bool wall) { return wall; });
+    }
+    return rows;
+  };
+  const std::string ray = "spacing: 90, cell_height: 16, rows: 1, filled: ";  // two of them
+  const int open = solid_rows(ray + "0");
+  EXPECT_EQ(open, solid_rows("spacing: 90, cell_height: 16, rows: 1"));
+  EXPECT_GT(solid_rows(ray + "0.3"), open);
+  EXPECT_GE(solid_rows(ray + "1"), open + 2 * (16 - 2 * 1.8));  // walls of 1.8 um about each lumen
 }
 
 TEST_F(ParameterFile, UnknownKeyIsNamedWithPlaceAndNearestKey)

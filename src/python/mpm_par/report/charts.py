@@ -14,6 +14,8 @@ def curve(run, bars):
               f"{found[key]['stress'] / 1e6:.3g} MPa"
               for key, name in (("buckling", "onset of buckling"),
                                 ("densification", "onset of densification")) if found.get(key)]
+    if found.get("toe"):
+        points.insert(0, f"modulus beyond the toe {found['toe']['modulus'] / 1e6:.4g} MPa")
     if found.get("modulus"):
         points.insert(0, f"modulus {found['modulus'] / 1e6:.4g} MPa")
     last = 100 * run.history["strain"][-1]

@@ -77,6 +77,10 @@ def properties(run, bars):
     if found.get("modulus"):
         rows.append(("modulus", _with_error(found["modulus"], error(
             "modulus", found.get("modulus_error")), 1e-6) + " MPa", ""))
+    if found.get("toe"):
+        toe = found["toe"]
+        rows.append(("modulus beyond the toe", f"{toe['modulus'] / 1e6:.4g} MPa",
+                     f"from {100 * toe['strain']:.3g} %"))
     for key, name in (("buckling", "onset of buckling"),
                       ("densification", "onset of densification"),
                       ("energy_efficiency", "best energy efficiency")):

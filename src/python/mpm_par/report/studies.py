@@ -11,7 +11,7 @@ from mpm_par.run import open_run
 from mpm_par.study import read_study, study_folders
 
 
-def _opened(study, folder):
+def opened(study, folder):
     """[(run of study.json, mpm_par.Run)] of those that ended well and whose results are there."""
     found = []
     for entry in study.record["runs"]:
@@ -122,7 +122,7 @@ def _table(caption, titles_and_rows):
 
 def _section(folder, study, made):
     stem = folder.name
-    runs = _opened(study, folder)
+    runs = opened(study, folder)
     drawn = [picture for picture in (_curves(stem, study, runs), _ladders(stem, study)) if picture]
     made += drawn
     source = study.record["known_source"]

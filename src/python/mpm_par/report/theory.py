@@ -26,22 +26,43 @@ def wall_of(run):
 
 
 def honeycomb_rows(study, runs):
-    """(titles, rows) of foam theory beside each figure. `runs`: (entry of study.json, Run)."""
+    """(titles, rows) of foam theory beside each figure, and below it that of the specimen's windows
+    where they are layers in series, each of which bears the whole stress. `runs`: (entry of
+    study.json, Run)."""
     rows = []
     for entry, run in runs:
         wall, density = wall_of(run), (run.summary or {}).get("relative_density")
-        if wall is None or not density or density >= 1 or run.axis is None:
+        if wall is None or run.axis is None:
             continue
-        theory = foam.honeycomb(density, wall.modulus, wall.yield_stress, wall.plane_strain,
-                                wall.poisson_ratio)
-        modulus, buckling = run.properties.get("modulus"), run.properties.get("buckling") or {}
-        rows.append([study_facts.name_of(study, entry), f"{density:.3f}",
-                     f"{theory.thickness_ratio:.3f}",
-                     _mega(theory.modulus), _mega(modulus), _mega(theory.elastic_buckling),
-                     _mega(theory.plastic_collapse), _mega(buckling.get("stress"))])
+        name = study_facts.name_of(study, entry)
+        buckling = run.properties.get("buckling") or {}
+        rows += _honeycomb(name, wall, density, run.properties.get("modulus"), buckling.get("stress"))
+        across = "xy"[run.axis]
+        for window in layers(run, across):
+            rows += _honeycomb(f"{name}: {window['name']}", wall,
+                               run.summary["windows"][window["name"]])
     return ["run", "relative density", "t/l", "modulus, theory (MPa)", "simulation",
             "elastic buckling, theory (MPa)", "plastic collapse, theory (MPa)",
             "onset, simulation"], rows
+
+
+def _honeycomb(name, wall, density, modulus=None, onset=None):
+    """One row; none of what is no foam."""
+    if not density or density >= 1:
+        return []
+    theory = foam.honeycomb(density, wall.modulus, wall.yield_stress, wall.plane_strain,
+                            wall.poisson_ratio)
+    return [[name, f"{density:.3f}", f"{theory.thickness_ratio:.3f}", _mega(theory.modulus),
+             _mega(modulus), _mega(theory.elastic_buckling), _mega(theory.plastic_collapse),
+             _mega(onset)]]
+
+
+def layers(run, across):
+    """Windows of a run's specimen that each take a part of it along the axis `across`, and all of it
+    along the other one of the plane."""
+    along = "y" if across == "x" else "x"
+    return [window for window in run.scene.get("specimen", {}).get("windows") or []
+            if window.get(across, [0, 1]) != [0, 1] and window.get(along, [0, 1]) == [0, 1]]
 
 
 def _mega(value):
@@ -55,8 +76,7 @@ def layer_rows(study, runs):
     for entry, run in runs:
         if run.axis != 0 or not run.properties.get("modulus"):
             continue
-        windows = [window for window in run.scene.get("specimen", {}).get("windows") or []
-                   if window.get("x", [0, 1]) != [0, 1] and window.get("y", [0, 1]) == [0, 1]]
+        windows = layers(run, "x")
         partner = _partner(entry, run, runs)
         if len(windows) != 2 or partner is None:
             continue
