@@ -94,6 +94,9 @@ def values():
         scatter = study_facts.scatter(study)
         if scatter[1]:
             found[f"{folder.name}_scatter"] = table(*scatter)
+        shifts = study_facts.shifts(study)
+        if shifts[1]:
+            found[f"{folder.name}_shifts"] = table(*shifts)
         limits = study_facts.limits(study)
         if limits:
             found[f"{folder.name}_limits"] = "\n".join(f"- {line}" for line in limits)

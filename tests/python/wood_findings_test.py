@@ -33,6 +33,12 @@ class Findings(unittest.TestCase):
         """The mean from strain to strain, Pa."""
         return run.history.at("stress", numpy.linspace(begin, end, 100)).mean()
 
+    def hump(self, run):
+        """The largest share of the slope that the curve loses between 24 and 36 % strain."""
+        places = numpy.arange(0.24, 0.361, 0.01)
+        slope = run.history.at("stress", places + 0.02) - run.history.at("stress", places - 0.02)
+        return (1 - slope / numpy.maximum.accumulate(slope)).max()
+
     def strain_at(self, run, stress):
         return run.history["strain"][numpy.argmax(run.history["stress"] > stress)]
 
@@ -64,6 +70,13 @@ class Findings(unittest.TestCase):
         tangential = self.crushed("loblolly", 0.45, TANGENTIAL, "output.snapshots=0")
         self.assertGreater(self.stress(tangential, 0.08, 0.15), 2 * self.stress(radial, 0.08, 0.15))
         self.check_densification(radial, tangential)
+
+    def test_curve_has_a_second_hump_where_the_latewood_yields_and_none_where_it_hardly_does(self):
+        # Fig. 5, at 24 % strain. The paths of buckling leave some noise in slopes.
+        soft, strong = (self.hump(self.crushed("loblolly", 0.39, RADIAL, "output.snapshots=0", "loading.speed=25 m/s",
+                                               f"material.yield_stress={size} MPa")) for size in (100, 2500))
+        self.assertGreater(soft, 0.3)
+        self.assertGreater(soft, 2 * strong)
 
     def check_densification(self, radial, tangential):
         """Of a hardwood too: it is stiffer along its rays, both directions are alike from some 35 %
