@@ -83,13 +83,18 @@ std::optional<Knee> softening_knee(const SampledCurve& fine, double begin, doubl
   return knee;
 }
 
-/// Strain at which a first, soft part of the curve ends: slots across the whole specimen that close
-/// first (lumens of rays in tangential compression), or uneven faces in a test. `line`: of the
-/// steep part from there to the knee, if there is one.
+/// To where the line before the knee reaches.
+double reach_of_line(const std::optional<Knee>& knee, double end)
+{
+  return knee ? knee->position : std::min(end, knee_range);
+}
+
+/// A first, soft part of the curve: slots across the whole specimen that close first (lumens of
+/// rays in tangential compression), or uneven faces in a test.
 struct SoftStart {
-  double end;
-  std::optional<Knee> knee;
-  Line line;
+  double end;                ///< strain
+  std::optional<Knee> knee;  ///< where the steep part after it ends
+  Line line;                 ///< of the steep part
 };
 
 std::optional<SoftStart> find_soft_start(const SampledCurve& curve, const SampledCurve& fine,
@@ -110,7 +115,7 @@ std::optional<SoftStart> find_soft_start(const SampledCurve& curve, const Sample
 
   const double from = toe->position;
   const std::optional<Knee> knee = softening_knee(fine, from, end);
-  const double length = (knee ? knee->position : std::min(end, knee_range)) - from;
+  const double length = reach_of_line(knee, end) - from;
   const std::optional<Line> line =
       fit_between(curve, from + 0.25 * length, from + 0.75 * length, 5);
   if (!line || line->slope < stiffening * toe->slope_before ||
@@ -213,9 +218,8 @@ CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& op
   const std::optional<SoftStart> soft_start =
       find_soft_start(curve, fine, end, options.ringing_strain);
   const std::optional<Knee> knee = soft_start ? soft_start->knee : softening_knee(fine, 0, end);
-  const double first_end =
-      soft_start ? soft_start->end : (knee ? knee->position : std::min(end, knee_range));
-  const Window window = elastic_window(first_end, options.discard_strain);
+  const Window window = elastic_window(soft_start ? soft_start->end : reach_of_line(knee, end),
+                                       options.discard_strain);
   const std::optional<Line> elastic = fit_elastic(curve, window, options.ringing_strain);
   if (elastic && elastic->slope > 0) {
     found.modulus = elastic->slope;
