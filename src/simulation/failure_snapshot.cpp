@@ -14,7 +14,12 @@ FailureSnapshot<Dim>::FailureSnapshot(const Preparation<Dim>& preparation,
                                       const std::filesystem::path& folder)
     : preparation_(preparation), folder_(folder / "failure")
 {
-  on_rank_zero(preparation.comm, [this] {
+}
+
+template <int Dim>
+void FailureSnapshot<Dim>::start(const HistoryKind&)
+{
+  on_rank_zero(preparation_.comm, [this] {
     std::error_code ignored;  // usually there is none
     for (const std::filesystem::path& file :
          {folder_ / (preparation_.scene.name + ".xdmf"), folder_ / "snapshots" / "000000.h5",

@@ -5,6 +5,7 @@
 #include <mpm/simulation/failure_cause.hpp>
 #include <mpm/simulation/kept_state.hpp>
 #include <mpm/simulation/method.hpp>
+#include <mpm/simulation/result_warnings.hpp>
 #include <mpm/simulation/run.hpp>
 #include <mpm/stepping/load_balance.hpp>
 #include <mpm/stepping/time_step.hpp>
@@ -41,8 +42,11 @@ class Run {
 
   RunResult run()
   {
+    // What a state that is refused would go on from stays as it is.
+    const bool goes_on = continuation_.state != nullptr;
+    if (goes_on) take_up();
     tell([&](Observer<Dim>& observer, const State&) { observer.start(history_.kind()); });
-    if (continuation_.state)
+    if (goes_on)
       resume();
     else
       begin();
@@ -131,16 +135,29 @@ class Run {
     keep();
   }
 
-  void resume()
+  void take_up()
   {
     Archive& state = *continuation_.state;
-    archive(state);
+    // Of the same scene, or it would not have come here.
+    const auto refuse = [](std::string_view difference) {
+      throw InputError(fmt::format(
+          "the checkpoint was written by another version of the program ({}). Go on with that one, "
+          "or run the scene from its start with --overwrite.",
+          difference));
+    };
+    try {
+      archive(state);
+    } catch (const InputError& error) {
+      const std::string_view said = error.what();
+      refuse(said.substr(0, said.find(". ")));  // what to do about it is said here
+    }
     if (const std::vector<std::string> unread = state.unread(); !unread.empty())
-      throw InputError(
-          fmt::format("checkpoint: {} belongs to nothing in this scene. Go on with the "
-                      "scene and the program that wrote it.",
-                      unread.front()));
+      refuse(fmt::format("{} is unknown here", unread.front()));
     continuation_.state.reset();
+  }
+
+  void resume()
+  {
     for (Observer<Dim>* observer : observers_) observer->resumed(history_.lines());
     keep();
   }
@@ -279,14 +296,10 @@ class Run {
     sum_over_ranks(comm_, std::span(&result_.active_nodes, 1));
     result_.deepest_behind_piston = history_.deepest_behind_piston();
     for (const HistoryLine& line : result_.lines)
-      if (line.strain > 0.01 || !model_.apparatus)
+      if (line.strain > balance_strain || !model_.apparatus)
         result_.largest_energy_error =
             std::max(result_.largest_energy_error, std::abs(line.energy_error));
-    if (const HistoryLine& last = result_.lines.back(); last.failed_cells > 0)
-      result_.warnings.push_back(fmt::format(
-          "{} of {} cells have failed and were removed, and {:.4g} J with them. Results depend on "
-          "the limits of failure and, where it localises, on the size of the cells.",
-          last.failed_cells, result_.particles, last.failed_energy));
+    result_.warnings = warnings_of_result(scene_, layout_, result_);
     result_.cooperation = cooperation_of(*stepper_, balance_, result_.particles);
     if (model_.apparatus) result_.properties = properties();
     result_.wall_seconds = seconds_since(start_);

@@ -62,6 +62,40 @@ class HistoryWriter final : public Observer<Dim> {
   std::optional<output::HistoryFile> file_;
 };
 
+std::string effective_scene_text(const scene::Scene& effective)
+{
+  std::ostringstream text;
+  scene::write_effective_scene(text, effective);
+  return text.str();
+}
+
+/// What a run says of itself before its first line. A folder in which one goes on stays as it was
+/// left until its state has been taken up.
+template <int Dim>
+class FolderWriter final : public Observer<Dim> {
+ public:
+  FolderWriter(const Preparation<Dim>& preparation, const RunRequest& request)
+      : preparation_(preparation), request_(request)
+  {
+  }
+  void start(const HistoryKind&) override
+  {
+    on_rank_zero(preparation_.comm, [&] {
+      const std::filesystem::path& folder = request_.results;
+      if (request_.restart) ResultsFolder(folder).go_on();
+      output::replace_file(folder / "scene.yaml",
+                           effective_scene_text(preparation_.effective_scene()));
+      micrograph::write_preview(preparation_.specimen, folder / "specimen.png");
+      if (!asks_for_snapshots(preparation_.scene))
+        output::SnapshotSeries::take_down(folder, preparation_.scene.name);
+    });
+  }
+
+ private:
+  const Preparation<Dim>& preparation_;
+  const RunRequest& request_;
+};
+
 /// How far the run is, on rank 0's terminal; warnings alone if it is quiet.
 template <int Dim>
 class ProgressWriter final : public Observer<Dim> {
@@ -107,13 +141,6 @@ void print(const analysis::CompressionProperties& found)
   point("onset of densification", found.densification);
 }
 
-std::string effective_scene_text(const scene::Scene& effective)
-{
-  std::ostringstream text;
-  scene::write_effective_scene(text, effective);
-  return text.str();
-}
-
 /// A line of YAML each.
 std::string checksums_of(std::span<const std::filesystem::path> files)
 {
@@ -151,7 +178,7 @@ std::unique_ptr<Archive> take_up(const Preparation<Dim>& preparation, const RunR
   return std::move(loaded.state);
 }
 
-/// The folder is ready for results, and nothing in it is of another run.
+/// Nothing in the folder is of another run.
 template <int Dim>
 Continuation begin_in_folder(const Preparation<Dim>& preparation, const RunRequest& request)
 {
@@ -160,17 +187,12 @@ Continuation begin_in_folder(const Preparation<Dim>& preparation, const RunReque
   agree(preparation.comm,
         [&] { continuation.record = effective + checksums_of(request.pictures); });
   if (request.restart) continuation.state = take_up(preparation, request, continuation.record);
-  on_rank_zero(preparation.comm, [&] {
-    const ResultsFolder folder(request.results);
-    std::vector<std::filesystem::path> inputs = request.pictures;
-    inputs.push_back(request.scene);
-    if (request.restart)
-      folder.go_on();
-    else
-      folder.start_anew(inputs, effective, request.overwrite);
-    output::replace_file(request.results / "scene.yaml", effective);
-    micrograph::write_preview(preparation.specimen, request.results / "specimen.png");
-  });
+  else
+    on_rank_zero(preparation.comm, [&] {
+      std::vector<std::filesystem::path> inputs = request.pictures;
+      inputs.push_back(request.scene);
+      ResultsFolder(request.results).start_anew(inputs, effective, request.overwrite);
+    });
   return continuation;
 }
 
@@ -182,16 +204,15 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const RunRequest& r
   const MPI_Comm comm = preparation.comm;
   const std::filesystem::path& folder = request.results;
   Continuation continuation = begin_in_folder(preparation, request);
+  FolderWriter<Dim> writer(preparation, request);
   HistoryWriter<Dim> history(comm, folder);
   ProgressWriter<Dim> progress(comm, request.quiet);
   FailureSnapshot<Dim> failure(preparation, folder);
   ExactSolution<Dim> exact(preparation, folder);
-  std::vector<Observer<Dim>*> observers{&history, &progress, &failure, &exact};
+  std::vector<Observer<Dim>*> observers{&writer, &history, &progress, &failure, &exact};
   std::optional<Snapshots<Dim>> snapshots;
   if (asks_for_snapshots(preparation.scene))
     observers.push_back(&snapshots.emplace(preparation, folder));
-  else
-    on_rank_zero(comm, [&] { output::SnapshotSeries::take_down(folder, preparation.scene.name); });
   watch_for_interruptions();
   const RunResult result = run<Dim>(preparation, observers, std::move(continuation));
   on_rank_zero(comm, [&] {

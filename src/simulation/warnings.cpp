@@ -16,9 +16,6 @@ namespace {
 
 /// Of the wall; less is what corners and round ends of thick walls have.
 constexpr double thin_share = 0.01;
-/// Speed of the piston over that of the fastest wave, up to which both ends of shipped woods feel
-/// the same stress within some percent.
-constexpr double quasi_static_speed = 0.01;
 /// Of the piston over that of the fastest wave: nothing here describes what happens, and a slip of
 /// the unit is likelier. What flies freely may be as soft as it likes.
 constexpr double senseless_speed = 100;

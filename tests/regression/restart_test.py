@@ -32,6 +32,11 @@ WOOD = (INPUTS / "wood" / "ponderosa_tangential.yaml",
 BAR = (INPUTS / "benchmarks" / "vibrating_bar.yaml", ["output.history_lines=50"])
 
 
+def all_of(folder):
+    """Contents by path."""
+    return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
 class RunsToRestart(ProgramTest):
     def run_it(self, of, folder, *words, settings=(), ranks=1, status=0):
         file, fixed = of
@@ -190,6 +195,19 @@ class Restart(RunsToRestart):
         self.assertIn("There is no other checkpoint", text)
         self.run_it(RING, folder, "--overwrite", settings=[CELLS, "steps=100"])
         self.assertEqual(self.checkpoints(folder), [])
+
+    def test_refuses_what_another_version_wrote(self):
+        """One in which a value has another name. Nothing in the folder is lost."""
+        folder = self.begun()
+        newest = self.checkpoints(folder)[-1]
+        newest.write_bytes(newest.read_bytes().replace(b"external_work", b"external_worj"))
+        before = all_of(folder)
+        for ranks in 1, 2:  # as it is, and shared out anew
+            run = self.run_it(RING, folder, "--restart", settings=[CELLS], ranks=ranks, status=2)
+            self.assertIn("written by another version of the program", run.stderr)
+            self.assertIn("history/external_work is not there). Go on with that one, or run the scene "
+                          "from its start with --overwrite.", run.stderr)
+            self.assertEqual(all_of(folder), before)
 
     def test_takes_the_one_that_is_named_and_another_end(self):
         folder = self.begun()

@@ -1,8 +1,11 @@
 """What a specialist would warn of, before a run and in its summary; no warning without cause."""
+import pathlib
+import re
 import unittest
 
-from program import ProgramTest, mpm_par, set_options, summary
+from program import History, ProgramTest, mpm_par, set_options, summary
 
+RING = pathlib.Path(__file__).parents[2] / "inputs" / "benchmarks" / "crushed_ring.yaml"
 SCENE = """
 material: {law: isotropic, youngs_modulus: 10 GPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
 specimen:
@@ -179,6 +182,43 @@ class Warnings(ProgramTest):
         self.assertIn("specimen.remove_unconnected: true", pieces)
         self.assertIn("closes gaps", early)
         self.assert_only(self.warnings_of(file, "specimen.remove_unconnected=true"), "closes gaps")
+
+    def test_what_has_happened_in_a_run(self):
+        """A ring that folds upon itself, between plates of which one moves."""
+        def of_ring(*settings):
+            folder = self.folder / "ring"
+            run = mpm_par(RING, "--output", folder, "--overwrite", "--quiet",
+                          *set_options(["grid.cells=[10, 10]", "numerics.formulation=total_lagrangian",
+                                        *settings]))
+            self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+            found = summary(folder)
+            for warning in found["warnings"]:
+                self.assertIn(warning, run.stdout)
+            history = History(folder)
+            loaded = [abs(error) for strain, error in zip(history["strain"], history["energy_error"])
+                      if strain > 0.01]
+            return " ".join(found["warnings"]), max(loaded), history
+
+        said, _, _ = of_ring("loading.speed=1 m/s", "loading.strain=10 %")
+        self.assertEqual(said, "")
+        # By hand, in windows of 1 % of strain: 40 lines to 1 %.
+        said, balance, history = of_ring("loading.strain=10 %", "output.history_lines=400")
+        ends = [(piston, edge) for strain, piston, edge in
+                zip(history["strain"], history["stress_piston"], history["stress_edge"]) if strain >= 0.02]
+        means = [[sum(end[side] for end in ends[k:k + 40]) for side in (0, 1)] for k in range(0, 320, 40)]
+        share = sum(2 * abs(piston - edge) / (piston + edge) for piston, edge in means) / len(means)
+        self.assertGreater(share, 0.05)
+        found = re.search(r"differ by (\d+) % on the average: the run is not quasi-static", said)
+        self.assertAlmostEqual(float(found[1]), 100 * share, delta=2)
+        self.assertLess(balance, 0.02)
+        self.assertNotIn("balance", said)
+
+        said, balance, _ = of_ring("numerics.formulation=updated_lagrangian",
+                                   "numerics.shape_function=linear")
+        self.assertGreater(balance, 0.02)
+        found = re.search(r"balance is open by ([\d.]+) % of the work at [\d.]+ % strain: work is lost, .*gimp\.",
+                          said)
+        self.assertAlmostEqual(float(found[1]), 100 * balance, delta=0.5)
 
 
 if __name__ == "__main__":

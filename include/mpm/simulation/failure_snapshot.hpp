@@ -10,9 +10,10 @@ namespace mpm {
 template <int Dim>
 class FailureSnapshot final : public Observer<Dim> {
  public:
-  /// Takes down what an earlier run has left. Collective.
   FailureSnapshot(const Preparation<Dim>& preparation, const std::filesystem::path& folder);
 
+  /// Takes down what an earlier run has left.
+  void start(const HistoryKind&) override;
   bool wants_last_sound_state() const override { return true; }
   /// Leaves FOLDER/failure/NAME.xdmf and its file.
   std::string failed(const typename Observer<Dim>::State& last_sound) override;

@@ -24,7 +24,8 @@ class Observer {
     double fraction;  ///< of the run
   };
   virtual ~Observer() = default;
-  /// What kinds of columns there will be; before the first step.
+  /// What kinds of columns there will be; before the first step, and behind the archive that a run
+  /// goes on from.
   virtual void start(const HistoryKind&) {}
   /// Before the first step and after each.
   virtual void look(const State&) {}

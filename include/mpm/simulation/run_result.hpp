@@ -34,6 +34,9 @@ struct GoingBack {
   std::string text() const;
 };
 
+/// From which on the energy balance is judged: the work done before is too little.
+inline constexpr double balance_strain = 0.01;
+
 /// The same on every rank.
 struct RunResult {
   std::vector<HistoryLine> lines;
@@ -45,7 +48,7 @@ struct RunResult {
   GlobalIndex largest_rank_bytes = 0;
   GlobalIndex active_nodes = 0;      ///< at the end, of all ranks; shared ones count on each
   double deepest_behind_piston = 0;  ///< m
-  double largest_energy_error = 0;   ///< after 1 % strain
+  double largest_energy_error = 0;   ///< beyond balance_strain
   Cooperation cooperation;
   /// Of a run with a piston.
   std::optional<analysis::CompressionProperties> properties;

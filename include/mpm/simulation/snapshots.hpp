@@ -4,6 +4,9 @@
 #include <mpm/output/snapshot.hpp>
 #include <mpm/simulation/run.hpp>
 
+#include <filesystem>
+#include <optional>
+
 namespace mpm {
 
 /// All particles of this rank as they are, with the fields that the scene asks for.
@@ -24,8 +27,7 @@ inline bool asks_for_snapshots(const scene::Scene& scene)
 template <int Dim>
 class Snapshots final : public Observer<Dim> {
  public:
-  /// Collective.
-  Snapshots(const Preparation<Dim>& preparation, const std::filesystem::path& folder);
+  Snapshots(const Preparation<Dim>& preparation, std::filesystem::path folder);
   void look(const typename Observer<Dim>::State& state) override;
   void kept() override;
   void went_back(const GoingBack& back) override;
@@ -33,9 +35,13 @@ class Snapshots final : public Observer<Dim> {
 
  private:
   bool pass_moments();
+  /// From the first use on: it takes down what an earlier run has left, and a state to go on from
+  /// may still be refused. Collective.
+  output::SnapshotSeries& series();
 
   const Preparation<Dim>& preparation_;
-  output::SnapshotSeries series_;
+  std::filesystem::path folder_;
+  std::optional<output::SnapshotSeries> series_;
   std::vector<double> moments_;  ///< s, ascending
   double looked_ = -1;           ///< s, when last
   std::size_t next_ = 0;
