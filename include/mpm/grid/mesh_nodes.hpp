@@ -36,9 +36,12 @@ class MeshNodes final : public Nodes<Dim> {
   }
   const IndexVec<Dim>& corner(LocalIndex node) const { return corners_[std::size_t(node)]; }
   /// Component `axis` of the place of node i, m, is along(axis)[i * stride]: columns in the plane,
-  /// in space rows of four, which cells read at once.
+  /// in space rows of four, which cells read at once. Null on a rank without nodes.
   static constexpr int stride = Dim == 2 ? 1 : 4;
-  const double* along(int axis) const { return places_.data() + axis * axis_stride(); }
+  const double* along(int axis) const
+  {
+    return places_.empty() ? nullptr : places_.data() + axis * axis_stride();
+  }
   /// x += dt v with the updated velocities, which become the momentum; forces are 0 then. Returns
   /// the largest component of the velocities of nodes that are not free, m/s.
   double move(NodeFields<Dim>& fields, double dt);
