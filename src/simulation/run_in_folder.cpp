@@ -186,7 +186,8 @@ Continuation begin_in_folder(const Preparation<Dim>& preparation, const RunReque
   const std::string effective = effective_scene_text(preparation.effective_scene());
   agree(preparation.comm,
         [&] { continuation.record = effective + checksums_of(request.pictures); });
-  if (request.restart) continuation.state = take_up(preparation, request, continuation.record);
+  if (request.restart)
+    continuation.state = take_up(preparation, request, continuation.record);
   else
     on_rank_zero(preparation.comm, [&] {
       std::vector<std::filesystem::path> inputs = request.pictures;

@@ -170,9 +170,7 @@ output::Snapshot snapshot_of(const Preparation<Dim>& preparation, Formulation<Di
 
 template <int Dim>
 Snapshots<Dim>::Snapshots(const Preparation<Dim>& preparation, std::filesystem::path folder)
-    : preparation_(preparation),
-      folder_(std::move(folder)),
-      moments_(snapshot_moments(preparation))
+    : preparation_(preparation), folder_(std::move(folder)), moments_(snapshot_moments(preparation))
 {
 }
 
@@ -180,8 +178,9 @@ template <int Dim>
 output::SnapshotSeries& Snapshots<Dim>::series()
 {
   if (!series_)
-    series_.emplace(preparation_.comm, folder_, preparation_.scene.name,
-                    output::SnapshotSeries::Options{.compress = preparation_.scene.output.compress});
+    series_.emplace(
+        preparation_.comm, folder_, preparation_.scene.name,
+        output::SnapshotSeries::Options{.compress = preparation_.scene.output.compress});
   return *series_;
 }
 
