@@ -34,16 +34,15 @@ void look_at_failed_cells(const RunResult& result, Warnings& warnings)
 
 void look_at_balance(const scene::Scene& scene, const RunResult& result, Warnings& warnings)
 {
-  if (result.largest_energy_error <= open_balance) return;
-  const auto worst = std::ranges::max_element(result.lines, {}, [](const HistoryLine& line) {
-    return line.strain > balance_strain ? std::abs(line.energy_error) : 0.0;
-  });
+  const auto judged = [](const HistoryLine& line) { return judged_energy_error(line, true); };
+  const auto worst = std::ranges::max_element(result.lines, {}, judged);
+  if (judged(*worst) <= open_balance) return;
   const bool jumps =
       !is_total_lagrangian(scene.numerics) && !scene.numerics.shape_function->stable_cfl.affine;
   warnings.push_back(fmt::format(
       "the energy balance is open by {:.2g} % of the work at {:.3g} % strain: {}, and stresses are "
       "uncertain by as much from there on. {}",
-      100 * std::abs(worst->energy_error), 100 * worst->strain,
+      100 * judged(*worst), 100 * worst->strain,
       worst->energy_error < 0 ? "work is lost" : "there is more than was put in",
       jumps ? "Gradients that jump at cell borders do that: take numerics.shape_function: gimp."
             : "Lower numerics.cfl, or refine grid.cells."));
@@ -72,12 +71,10 @@ double difference_of_ends(const std::vector<HistoryLine>& lines)
 
 /// Of a piston whose speed alone gave no reason to warn: slow waves of the structure, or heavy
 /// cells.
-template <int Dim>
-void look_at_ends(const scene::Scene& scene, const Layout<Dim>& layout, const RunResult& result,
+void look_at_ends(const scene::Loading& loading, double wave_speed, const RunResult& result,
                   Warnings& warnings)
 {
-  const auto* loading = std::get_if<scene::Loading>(&scene.motion);
-  if (!loading || loading->speed > quasi_static_speed * layout.wave_speed) return;
+  if (loading.speed > quasi_static_speed * wave_speed) return;
   const double share = difference_of_ends(result.lines);
   if (share <= dynamic_share) return;
   const double heaviest = std::ranges::max(result.lines, {}, &HistoryLine::added_mass).added_mass;
@@ -92,21 +89,16 @@ void look_at_ends(const scene::Scene& scene, const Layout<Dim>& layout, const Ru
 
 }  // namespace
 
-template <int Dim>
-std::vector<std::string> warnings_of_result(const scene::Scene& scene, const Layout<Dim>& layout,
+std::vector<std::string> warnings_of_result(const scene::Scene& scene, double wave_speed,
                                             const RunResult& result)
 {
   Warnings warnings;
   look_at_failed_cells(result, warnings);
-  if (std::holds_alternative<scene::Loading>(scene.motion))
+  if (const auto* loading = std::get_if<scene::Loading>(&scene.motion)) {
     look_at_balance(scene, result, warnings);
-  look_at_ends(scene, layout, result, warnings);
+    look_at_ends(*loading, wave_speed, result, warnings);
+  }
   return warnings;
 }
-
-template std::vector<std::string> warnings_of_result(const scene::Scene&, const Layout<2>&,
-                                                     const RunResult&);
-template std::vector<std::string> warnings_of_result(const scene::Scene&, const Layout<3>&,
-                                                     const RunResult&);
 
 }  // namespace mpm

@@ -296,10 +296,9 @@ class Run {
     sum_over_ranks(comm_, std::span(&result_.active_nodes, 1));
     result_.deepest_behind_piston = history_.deepest_behind_piston();
     for (const HistoryLine& line : result_.lines)
-      if (line.strain > balance_strain || !model_.apparatus)
-        result_.largest_energy_error =
-            std::max(result_.largest_energy_error, std::abs(line.energy_error));
-    result_.warnings = warnings_of_result(scene_, layout_, result_);
+      result_.largest_energy_error =
+          std::max(result_.largest_energy_error, judged_energy_error(line, bool(model_.apparatus)));
+    result_.warnings = warnings_of_result(scene_, layout_.wave_speed, result_);
     result_.cooperation = cooperation_of(*stepper_, balance_, result_.particles);
     if (model_.apparatus) result_.properties = properties();
     result_.wall_seconds = seconds_since(start_);

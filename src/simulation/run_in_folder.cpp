@@ -62,20 +62,14 @@ class HistoryWriter final : public Observer<Dim> {
   std::optional<output::HistoryFile> file_;
 };
 
-std::string effective_scene_text(const scene::Scene& effective)
-{
-  std::ostringstream text;
-  scene::write_effective_scene(text, effective);
-  return text.str();
-}
-
 /// What a run says of itself before its first line. A folder in which one goes on stays as it was
 /// left until its state has been taken up.
 template <int Dim>
 class FolderWriter final : public Observer<Dim> {
  public:
-  FolderWriter(const Preparation<Dim>& preparation, const RunRequest& request)
-      : preparation_(preparation), request_(request)
+  FolderWriter(const Preparation<Dim>& preparation, const RunRequest& request,
+               const std::string& effective_scene)
+      : preparation_(preparation), request_(request), effective_scene_(effective_scene)
   {
   }
   void start(const HistoryKind&) override
@@ -83,8 +77,7 @@ class FolderWriter final : public Observer<Dim> {
     on_rank_zero(preparation_.comm, [&] {
       const std::filesystem::path& folder = request_.results;
       if (request_.restart) ResultsFolder(folder).go_on();
-      output::replace_file(folder / "scene.yaml",
-                           effective_scene_text(preparation_.effective_scene()));
+      output::replace_file(folder / "scene.yaml", effective_scene_);
       micrograph::write_preview(preparation_.specimen, folder / "specimen.png");
       if (!asks_for_snapshots(preparation_.scene))
         output::SnapshotSeries::take_down(folder, preparation_.scene.name);
@@ -94,6 +87,7 @@ class FolderWriter final : public Observer<Dim> {
  private:
   const Preparation<Dim>& preparation_;
   const RunRequest& request_;
+  const std::string& effective_scene_;
 };
 
 /// How far the run is, on rank 0's terminal; warnings alone if it is quiet.
@@ -141,6 +135,13 @@ void print(const analysis::CompressionProperties& found)
   point("onset of densification", found.densification);
 }
 
+std::string effective_scene_text(const scene::Scene& effective)
+{
+  std::ostringstream text;
+  scene::write_effective_scene(text, effective);
+  return text.str();
+}
+
 /// A line of YAML each.
 std::string checksums_of(std::span<const std::filesystem::path> files)
 {
@@ -180,19 +181,19 @@ std::unique_ptr<Archive> take_up(const Preparation<Dim>& preparation, const RunR
 
 /// Nothing in the folder is of another run.
 template <int Dim>
-Continuation begin_in_folder(const Preparation<Dim>& preparation, const RunRequest& request)
+Continuation begin_in_folder(const Preparation<Dim>& preparation, const RunRequest& request,
+                             const std::string& effective_scene)
 {
   Continuation continuation{.results = request.results, .time_limit = request.time_limit};
-  const std::string effective = effective_scene_text(preparation.effective_scene());
   agree(preparation.comm,
-        [&] { continuation.record = effective + checksums_of(request.pictures); });
+        [&] { continuation.record = effective_scene + checksums_of(request.pictures); });
   if (request.restart)
     continuation.state = take_up(preparation, request, continuation.record);
   else
     on_rank_zero(preparation.comm, [&] {
       std::vector<std::filesystem::path> inputs = request.pictures;
       inputs.push_back(request.scene);
-      ResultsFolder(request.results).start_anew(inputs, effective, request.overwrite);
+      ResultsFolder(request.results).start_anew(inputs, effective_scene, request.overwrite);
     });
   return continuation;
 }
@@ -204,8 +205,9 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const RunRequest& r
 {
   const MPI_Comm comm = preparation.comm;
   const std::filesystem::path& folder = request.results;
-  Continuation continuation = begin_in_folder(preparation, request);
-  FolderWriter<Dim> writer(preparation, request);
+  const std::string effective_scene = effective_scene_text(preparation.effective_scene());
+  Continuation continuation = begin_in_folder(preparation, request, effective_scene);
+  FolderWriter<Dim> writer(preparation, request, effective_scene);
   HistoryWriter<Dim> history(comm, folder);
   ProgressWriter<Dim> progress(comm, request.quiet);
   FailureSnapshot<Dim> failure(preparation, folder);

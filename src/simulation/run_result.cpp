@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,12 @@ std::string GoingBack::text() const
 {
   return fmt::format("{} Went back to step {}, t = {:.6g} s, and on with {:.4g} of the step.",
                      reason, step, time, step_share);
+}
+
+double judged_energy_error(const HistoryLine& line, bool under_a_piston)
+{
+  constexpr double judged_from = 0.01;
+  return line.strain > judged_from || !under_a_piston ? std::abs(line.energy_error) : 0.0;
 }
 
 template <int Dim>

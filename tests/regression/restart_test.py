@@ -8,7 +8,7 @@ import time
 import unittest
 
 from program import History, ProgramTest, mpm_par, seconds, set_options, summary
-from same_results import expect_same, files_of
+from same_results import all_of, expect_same, files_of
 
 INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
 SNAPSHOTS = "output.snapshots={strains: [0 %, 10 %, 20 %, 29 %]}"
@@ -30,11 +30,6 @@ WOOD = (INPUTS / "wood" / "ponderosa_tangential.yaml",
          "output.history_lines=100", "output.snapshots.strains=[0 %, 1 %]",
          "output.fields=[velocity, stress, id, rank]"])
 BAR = (INPUTS / "benchmarks" / "vibrating_bar.yaml", ["output.history_lines=50"])
-
-
-def all_of(folder):
-    """Contents by path."""
-    return {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
 class RunsToRestart(ProgramTest):

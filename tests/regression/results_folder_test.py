@@ -6,15 +6,11 @@ import shutil
 import unittest
 
 from program import ProgramTest, mpm_par, set_options
+from same_results import all_of
 
 WHOLE = ["output.history_lines=4"]
 QUICK = [*WHOLE, "steps=40"]
 OF_A_RUN = ["exact_solution.csv", "history.csv", "report.html", "scene.yaml", "specimen.png", "summary.json"]
-
-
-def all_of(folder):
-    return {str(path.relative_to(folder)): path.read_bytes()
-            for path in folder.rglob("*") if path.is_file()}
 
 
 class ResultsFolder(ProgramTest):

@@ -13,6 +13,12 @@ def files_of(folder):
     return found
 
 
+def all_of(folder):
+    """Contents of everything there, by path."""
+    return {str(path.relative_to(folder)): path.read_bytes()
+            for path in folder.rglob("*") if path.is_file()}
+
+
 def facts_of(folder):
     """Of the summary."""
     return {key: value for key, value in summary(folder).items()
