@@ -91,10 +91,10 @@ void RigidWall<Dim>::find_near(const MeshNodes<Dim>& nodes, double face)
 {
   const int axis = placement_.axis;
   const double reach = nodes.spacing()[axis], side = placement_.upper ? 1 : -1;
-  if (near_ && nodes.way() >= near_->way &&
+  if (near_ && near_->mesh == nodes.mesh() && nodes.way() >= near_->way &&
       nodes.way() - near_->way + std::abs(face - near_->face) < 0.5 * reach)
     return;
-  near_ = Near{nodes.way(), face, {}, {}};
+  near_ = Near{nodes.mesh(), nodes.way(), face, {}, {}};
   const auto at = places_along(nodes, axis);
   for (LocalIndex node = 0; node < nodes.size(); ++node) {
     if (nodes.is_led(node)) continue;

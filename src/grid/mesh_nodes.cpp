@@ -14,7 +14,8 @@ MeshNodes<Dim>::MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> 
       owned_(std::move(owned)),
       location_size_(size),
       period_(period),
-      listing_(Nodes<Dim>::new_listing())
+      mesh_(Nodes<Dim>::new_listing()),
+      listing_(mesh_)
 {
   places_.assign(owned_.size() * std::size_t(stride == 1 ? Dim : stride), 0.0);
   for (LocalIndex node = 0; node < this->size(); ++node) {
@@ -86,11 +87,13 @@ GlobalIndex MeshNodes<Dim>::key(LocalIndex node, const IndexVec<Dim>& corner) co
 {
   constexpr int bits = 56 / Dim;  // which leaves seven for the kind
   GlobalIndex key = kinds_.empty() ? 0 : kinds_[std::size_t(node)];
-  for (int d = Dim - 1; d >= 0; --d) key = key << bits | GlobalIndex(corner[d]);
+  // Corners of a load cell lie below 0.
+  constexpr GlobalIndex lower_bits = (GlobalIndex(1) << bits) - 1;
+  for (int d = Dim - 1; d >= 0; --d) key = key << bits | (GlobalIndex(corner[d]) & lower_bits);
   return key;
 }
 
-/// Of each node, where it stands among all ranks'; `saved`: the corner that it has there, as a node
+/// Of each node, where it stands among all ranks', which all ask; `saved`: the corner that it has there, as a node
 /// where an axis begins again may have been another image.
 template <int Dim>
 std::vector<std::int64_t> MeshNodes<Dim>::find_saved(Archive& archive,
@@ -101,6 +104,9 @@ std::vector<std::int64_t> MeshNodes<Dim>::find_saved(Archive& archive,
   for (LocalIndex node = 0; node < size(); ++node) keys.push_back(key(node, corner(node)));
   std::vector<std::int64_t> rows = archive.places_of("key", keys);
   for (int images = 1; images < 1 << Dim; ++images) {
+    bool are_there = true;
+    for (int d = 0; d < Dim; ++d) are_there = are_there && (!(images >> d & 1) || period_[d] > 0);
+    if (!are_there) continue;
     std::vector<LocalIndex> astray;
     std::vector<IndexVec<Dim>> at;
     std::vector<std::int64_t> image_keys;
@@ -108,13 +114,12 @@ std::vector<std::int64_t> MeshNodes<Dim>::find_saved(Archive& archive,
       if (rows[std::size_t(node)] >= 0) continue;
       IndexVec<Dim> image = corner(node);
       for (int d = 0; d < Dim; ++d)
-        if (images >> d & 1 && period_[d] > 0 && image[d] % period_[d] == 0)
+        if (images >> d & 1 && image[d] % period_[d] == 0)
           image[d] = period_[d] - image[d];
       astray.push_back(node);
       at.push_back(image);
       image_keys.push_back(key(node, image));
     }
-    if (astray.empty()) return rows;
     const std::vector<std::int64_t> found = archive.places_of("key", image_keys);
     for (std::size_t k = 0; k < astray.size(); ++k) {
       rows[std::size_t(astray[k])] = found[k];

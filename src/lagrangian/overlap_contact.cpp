@@ -7,6 +7,13 @@
 
 namespace mpm {
 
+namespace {
+
+// Of a cell without contact: 11, 35 and 45 ns beside 22 (drawn loblolly and poplar, one core).
+constexpr double work_at_surface = 0.5, work_of_close = 1.5, work_of_pressing = 2;
+
+}  // namespace
+
 template <int Dim>
 OverlapContact<Dim>::OverlapContact(MPI_Comm comm, Cells cells, double kappa, BodyPairs bodies,
                                     const Vec<Dim>& size, const IndexVec<Dim>& period)
@@ -318,6 +325,22 @@ double OverlapContact<Dim>::overlapped_area() const
   double area = 0;
   for (const Touch& touch : touches_) area += 0.5 * touch.overlap;
   return area;
+}
+
+/// A pair counts half at either cell, as if both were of this rank: so it does behind other
+/// borders.
+template <int Dim>
+void OverlapContact<Dim>::visit_work(
+    const std::function<void(const IndexVec<Dim>&, double)>& visit) const
+{
+  std::vector<double> work(cells_.size(), work_at_surface);
+  const auto add = [&](const std::array<LocalIndex, 2>& pair, double amount) {
+    for (const LocalIndex cell : pair)
+      if (cell < cells()) work[std::size_t(cell)] += 0.5 * amount;
+  };
+  for (const Close& pair : close_) add(pair.cells, work_of_close);
+  for (const Pressing& pair : pressing_) add(pair.cells, work_of_pressing);
+  for (std::size_t c = 0; c < work.size(); ++c) visit(cells_[c].location, work[c]);
 }
 
 template <int Dim>

@@ -21,8 +21,12 @@ constexpr double least_way = 0.25, checks_ahead = 3;
 
 template <int Dim>
 TotalLagrangian<Dim>::TotalLagrangian(Decomposition<Dim> decomposition, Setup setup)
-    : decomposition_(std::move(decomposition)), setup_(std::move(setup))
+    : decomposition_(std::move(decomposition)),
+      setup_(std::move(setup)),
+      fitted_(!setup_.offsets.empty())
 {
+  for (const Body<Dim>& body : setup_.bodies)
+    MPM_ASSERT(std::ranges::is_sorted(body.particles.ids()));
   make_mesh();
   add_masses();
   add_loads_on_particles();
@@ -130,27 +134,31 @@ void TotalLagrangian<Dim>::check()
     lost.ratio = beyond->volume_ratio;
     loss_ = Loss<Dim>{lost, body.name, {steps_, time_}};
   }
-  const double work = this->particles();
-  // The largest of: speeds, work, and minus the step of the first loss; ways of nodes; what failed.
-  std::array<double, 6> largest{largest_speed_,
+  const double particles = this->particles();
+  double work = 0;
+  visit_work([&](const IndexVec<Dim>&, double amount) { work += amount; });
+  // The largest of: speeds, work, and minus the step of the first loss; ways of nodes; what failed;
+  // particles.
+  std::array<double, 7> largest{largest_speed_,
                                 wave_speed,
                                 work,
                                 loss_ ? -double(loss_->moment.step) : never,
                                 contact_ ? contact_->largest_way(*nodes_) : 0.0,
-                                double(failed.size())};
+                                double(failed.size()),
+                                particles};
   const MPI_Comm comm = decomposition_.comm();
   largest_over_ranks(comm, largest);
   if (largest[3] > never)
     stop_at<Dim>(GlobalIndex(-largest[3]), loss_, comm, decomposition_.geometry());
-  double mean = work;
-  sum_over_ranks(comm, std::span(&mean, 1));
-  mean /= decomposition_.ranks();
+  std::array<double, 2> mean{work, particles};
+  sum_over_ranks(comm, mean);
+  for (double& value : mean) value /= decomposition_.ranks();
   agreed_.largest_speed = largest[0];
   agreed_.wave_speed = largest[1];
   agreed_.busiest_work = largest[2];
-  agreed_.mean_work = mean;
-  agreed_.most_particles = GlobalIndex(largest[2]);
-  agreed_.mean_particles = mean;
+  agreed_.mean_work = mean[0];
+  agreed_.most_particles = GlobalIndex(largest[6]);
+  agreed_.mean_particles = mean[1];
   largest_speed_ = 0;
   checked_ = steps_;
   if (largest[5] > 0) {
@@ -237,24 +245,6 @@ void TotalLagrangian<Dim>::look_for_pairs(double way)
                                              checks_ahead * to_next_check));
   contact_->measure(*nodes_);
   contact_->forget_stiffness();
-}
-
-template <int Dim>
-GlobalIndex TotalLagrangian<Dim>::repartition(const Ownership<Dim>&)
-{
-  throw NumericalError("cells of a total Lagrangian step stay on their rank");
-}
-
-template <int Dim>
-void TotalLagrangian<Dim>::visit_work(
-    const std::function<void(const IndexVec<Dim>&, double)>& visit) const
-{
-  const GridGeometry<Dim>& geometry = decomposition_.geometry();
-  for (LocalIndex node = 0; node < nodes_->size(); ++node) {
-    Vec<Dim> rest;
-    for (int d = 0; d < Dim; ++d) rest[d] = nodes_->rest(node, d);
-    visit(geometry.cell_of(rest), 1);
-  }
 }
 
 template <int Dim>

@@ -9,12 +9,6 @@
 namespace mpm {
 
 template <int Dim>
-void TotalLagrangian<Dim>::begin_loading(const Ownership<Dim>&)
-{
-  loss_.reset();
-}
-
-template <int Dim>
 void TotalLagrangian<Dim>::archive(Archive& archive)
 {
   archive.value("time", time_);
@@ -102,8 +96,6 @@ void TotalLagrangian<Dim>::archive_failure(Archive& archive)
   if (archive.is_loading()) list_what_is_left();
 }
 
-template void TotalLagrangian<2>::begin_loading(const Ownership<2>&);
-template void TotalLagrangian<3>::begin_loading(const Ownership<3>&);
 template void TotalLagrangian<2>::archive(Archive&);
 template void TotalLagrangian<3>::archive(Archive&);
 

@@ -40,11 +40,7 @@ void TotalLagrangian<Dim>::make_mesh()
   const GridGeometry<Dim>& geometry = decomposition_.geometry();
   const int me = decomposition_.rank();
   const IndexVec<Dim> period = this->period();
-  const auto cell_of = [&](const IndexVec<Dim>& location) {
-    Vec<Dim> centre;
-    for (int d = 0; d < Dim; ++d) centre[d] = (location[d] + 0.5) * setup_.location_size[d];
-    return geometry.cell_of(centre);
-  };
+  const auto cell_of = [&](const IndexVec<Dim>& location) { return grid_cell_of(location); };
   const auto owner_of = [&](const IndexVec<Dim>& any_cell) {
     const IndexVec<Dim> cell = geometry.wrapped(any_cell);
     for (int d = 0; d < Dim; ++d)

@@ -110,8 +110,7 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       member<N>("ranks", &N::ranks, {.bound = at_least(0), .default_text = "chosen"},
                 "process grid of cuts along each axis; 0: chosen"),
       member<N>("repartition_interval", &N::repartition_interval, {.bound = at_least(0)},
-                "move the borders between ranks every so many steps (for tests); 0: when it pays")
-          .when(of_grid),
+                "move the borders between ranks every so many steps (for tests); 0: when it pays"),
       member<N>("recovery", &N::recovery, {},
                 "after a numerical failure: end the run, or go back to the last sound state and on "
                 "with half the step, four times at most"),

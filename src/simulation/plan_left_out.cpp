@@ -75,7 +75,7 @@ std::vector<Plan::LeftOut> left_out(const Preparation<Dim>& preparation, const P
          "no material can yield");
   if (is_total_lagrangian(numerics))
     list.insert(list.end(),
-                {{"sorting and migration", "cells keep their neighbours, and stay on their rank"},
+                {{"sorting and migration", "cells keep their neighbours"},
                  {"stencils and weights", "they never change"},
                  {"empty nodes", "there is none without a cell"},
                  {"re-mapped momentum", "velocities stay on the nodes"}});

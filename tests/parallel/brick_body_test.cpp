@@ -2,6 +2,7 @@
 #include <mpm/core/memory_archive.hpp>
 
 #include "brick_bodies.hpp"
+#include "ragged_blocks.hpp"
 #include <gtest/gtest.h>
 
 namespace mpm {
@@ -71,6 +72,23 @@ TEST(BrickBody, TakesUpWhatWasSavedToTheLastBit)
   const Bricks::Found one = run.found(), two = other.found();
   EXPECT_EQ(one.places, two.places);
   EXPECT_EQ(one.energy, two.energy);
+}
+
+TEST(BrickBody, GoesOnAlikeWhereBordersMove)
+{
+  const Scene scene{.yield = YieldConstants{30e6, 0}, .pressed = true, .periodic = true};
+  Bricks moved(MPI_COMM_WORLD, scene), still(MPI_COMM_WORLD, scene);
+  const Ownership<3> first = moved.stepper().decomposition().ownership();
+  still.advance(600);
+  moved.advance(300);
+  moved.stepper().repartition(scattered_blocks(first.geometry(), 2, first.ranks(), 1));
+  moved.advance(200);
+  moved.stepper().repartition(first);
+  moved.advance(100);
+  const Bricks::Found one = still.found(), now = moved.found();
+  EXPECT_EQ(now.pairs, one.pairs);
+  EXPECT_NEAR(now.energy / one.energy, 1, 1e-10);
+  EXPECT_LT(largest_difference(now.places, one.places), 1e-10 * cell);
 }
 
 TEST(BrickBody, GoesOnAcrossAPeriodicSide)

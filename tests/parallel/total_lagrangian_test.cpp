@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 
+#include "ragged_blocks.hpp"
 #include "sums_of_bodies.hpp"
 #include <gtest/gtest.h>
 
@@ -251,6 +252,66 @@ TEST(TotalLagrangian, TakesUpWhatWasSavedToTheLastBit)
   double all = rubbed;
   sum_over_ranks(MPI_COMM_WORLD, std::span(&all, 1));
   EXPECT_GT(all, 0);
+}
+
+/// Cells that touch, flow and rub go to other ranks, near and far, and back.
+TEST(TotalLagrangian, GoesOnAlikeWhereBordersMove)
+{
+  for (const bool periodic : {false, true}) {
+    const Scene scene{.first_y = periodic ? 20 : 6,
+                      .yield = YieldConstants{30e6, 0},
+                      .pressed = true,
+                      .friction = 0.3,
+                      .periodic = periodic};
+    Ring moved(MPI_COMM_WORLD, scene), still(MPI_COMM_WORLD, scene);
+    const Ownership<2> first = moved.stepper().decomposition().ownership();
+    ASSERT_TRUE(moved.stepper().can_repartition());
+    still.advance(1000);
+    moved.advance(600);
+    GlobalIndex left = 0;
+    for (const unsigned seed : {1u, 2u}) {
+      left += moved.stepper().repartition(
+          scattered_blocks(first.geometry(), 3, first.ranks(), seed));
+      moved.advance(100);
+    }
+    moved.stepper().repartition(first);
+    moved.advance(200);
+    sum_over_ranks(MPI_COMM_WORLD, std::span(&left, 1));
+    EXPECT_EQ(left > 0, first.ranks() > 1);
+    const Ring::Found one = still.found(), now = moved.found();
+    EXPECT_EQ(now.pairs, one.pairs);
+    EXPECT_NEAR(now.energy / one.energy, 1, 1e-9);
+    EXPECT_NEAR(now.work / one.work, 1, 1e-9);
+    EXPECT_LT(largest_difference(now.places, one.places), 1e-9 * cell);
+  }
+}
+
+/// As where a run goes back, and where one begins on the borders at the start.
+TEST(TotalLagrangian, TakesUpWhatWasSavedWithinOtherBorders)
+{
+  const Scene scene{.yield = YieldConstants{30e6, 0}, .pressed = true, .friction = 0.3};
+  Ring run(MPI_COMM_WORLD, scene), anew(MPI_COMM_WORLD, scene);
+  const Ownership<2> first = run.stepper().decomposition().ownership(),
+                     other = scattered_blocks(first.geometry(), 3, first.ranks(), 1);
+  for (const Ownership<2>* borders : {&first, &other}) {
+    run.stepper().repartition(*borders);
+    run.advance(300);
+    MemoryArchive archive;
+    archive.start_saving();
+    run.stepper().archive(archive);
+    run.advance(100);
+    const std::vector<double> places = run.found().places;
+    run.stepper().repartition(scattered_blocks(first.geometry(), 5, first.ranks(), 7));
+    run.advance(60);
+    for (Ring* again : {&run, &anew}) {
+      again->stepper().begin_loading(*borders);
+      archive.start_loading();
+      again->stepper().archive(archive);
+      EXPECT_TRUE(archive.unread().empty());
+      again->advance(100);
+      EXPECT_EQ(again->found().places, places);
+    }
+  }
 }
 
 TEST(TotalLagrangian, GoesOnAcrossAPeriodicSide)

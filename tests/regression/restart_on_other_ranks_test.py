@@ -48,6 +48,9 @@ class RestartOnOtherRanks(RunsToRestart):
     def test_particles_and_a_load_cell(self):
         self.check_goes_on(HONEYCOMB, 301, ["loading.load_cell.cells=3", "numerics.decomposition=metis"])
 
+    def test_cells_and_a_load_cell(self):
+        self.check_goes_on(HONEYCOMB, 301, [CELLS, "loading.load_cell.cells=3"])
+
     def test_particles_of_bodies_that_meet(self):
         self.check_goes_on(TWO_BLOCKS, 301)
 

@@ -66,6 +66,11 @@ class Restart(RunsToRestart):
             self.check_goes_on(CROP, 1500, ranks)
         self.assertGreater(History(self.folder / "parts_3")["contact_pairs"][-1], 100)
 
+    def test_cells_that_go_to_other_ranks(self):
+        for ranks in 2, 3:
+            self.check_goes_on(CROP, 1500, ranks, ["numerics.repartition_interval=400"])
+        self.assertGreater(summary(self.folder / "whole_3")["repartitions"], 4)
+
     def test_cells_that_fail(self):
         for ranks in 1, 2:
             self.check_goes_on(STRIP, 700, ranks)

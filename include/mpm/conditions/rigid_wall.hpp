@@ -94,6 +94,7 @@ class RigidWall final : public BoundaryCondition<Dim> {
   /// Of nodes that move with a body: those that stood at the face at time 0, and all that may come
   /// to it before the face and they have gone half a location.
   struct Near {
+    GlobalIndex mesh;  ///< whose nodes they are
     double way, face;  ///< m, when they were found
     std::vector<LocalIndex> held, nodes;
   };

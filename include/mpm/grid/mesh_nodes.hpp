@@ -24,6 +24,8 @@ class MeshNodes final : public Nodes<Dim> {
   LocalIndex size() const override { return LocalIndex(owned_.size()); }
   void find_within(const Region<Dim>& region, std::vector<LocalIndex>& nodes) const override;
   GlobalIndex listing() const override { return listing_; }
+  /// Another one of every mesh: what is known by a node's number is of one alone.
+  GlobalIndex mesh() const { return mesh_; }
   Vec<Dim> position(LocalIndex node) const override;
   bool is_owned(LocalIndex node) const override { return owned_[std::size_t(node)]; }
   const Vec<Dim>& spacing() const override { return location_size_; }
@@ -81,7 +83,7 @@ class MeshNodes final : public Nodes<Dim> {
 
   LaneVector<double> places_;
   double way_ = 0;
-  GlobalIndex listing_;
+  GlobalIndex mesh_, listing_;
 };
 
 /// What such nodes carry.

@@ -58,6 +58,9 @@ class OverlapContact final : public SelfContact<Dim> {
   double overlapped_area() const override;
   GlobalIndex touching() const override { return GlobalIndex(touches_.size()); }
 
+  void visit_work(
+      const std::function<void(const IndexVec<Dim>& location, double work)>& visit) const override;
+
   GlobalIndex messages() const override { return ghosts_.messages() + side_ghosts_.messages(); }
   GlobalIndex bytes_sent() const override
   {

@@ -7,6 +7,7 @@
 #include <mpm/lagrangian/open_corners.hpp>
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -66,6 +67,10 @@ class SelfContact {
   /// m^2, in space m^3; every overlap counts once on either cell, half each
   virtual double overlapped_area() const = 0;
   virtual GlobalIndex touching() const = 0;  ///< pairs, with others' halves
+
+  /// visit(location, work), in the work of a cell without contact, for what a step does at it.
+  virtual void visit_work(
+      const std::function<void(const IndexVec<Dim>& location, double work)>& visit) const = 0;
 
   virtual GlobalIndex messages() const = 0;
   virtual GlobalIndex bytes_sent() const = 0;

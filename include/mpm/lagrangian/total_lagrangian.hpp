@@ -15,13 +15,15 @@
 namespace mpm {
 
 /// Central differences: velocities stand half a step before places and stresses. Places and
-/// velocities live on the nodes. There is no sort, no migration and no activity; the halo never
-/// changes, and a step has no collective. Cells that fail leave their mass on the nodes.
+/// velocities live on the nodes. There is no sort, no migration and no activity; the halo changes
+/// only where borders between ranks move, and a step has no collective. Cells that fail leave their
+/// mass on the nodes.
 template <int Dim>
 class TotalLagrangian final : public Formulation<Dim> {
  public:
   struct Setup {
-    std::vector<Body<Dim>> bodies;  ///< particles at the centres of their locations
+    /// Particles at the centres of their locations, in the order of their ids.
+    std::vector<Body<Dim>> bodies;
     Slots<Dim> slots{};
     Vec<Dim> location_size;  ///< m
     double thickness = 1;    ///< m, of the plane
@@ -58,7 +60,8 @@ class TotalLagrangian final : public Formulation<Dim> {
   Slots<Dim>& slots() override { return setup_.slots; }
   double largest_step() const override { return setup_.slots.largest_step(); }
 
-  bool can_repartition() const override { return false; }
+  /// Where cells are at rest on the lattice, and none of them fails.
+  bool can_repartition() const override { return !fitted_ && !cells_may_fail(); }
   GlobalIndex repartition(const Ownership<Dim>& ownership) override;
   void visit_work(const std::function<void(const IndexVec<Dim>&, double)>& visit) const override;
 
@@ -99,6 +102,9 @@ class TotalLagrangian final : public Formulation<Dim> {
   void archive_failure(Archive& archive);
   void archive_cells(Archive& archive, std::size_t number);
   IndexVec<Dim> location_of(const Body<Dim>& body, LocalIndex particle) const;
+  IndexVec<Dim> location_of_cell(std::size_t body, LocalIndex cell) const;
+  IndexVec<Dim> grid_cell_of(const IndexVec<Dim>& location) const;
+  GlobalIndex take_cells(const Ownership<Dim>& ownership);
   IndexVec<Dim> period() const;
   /// Whether no cell that can be deformed has a node.
   bool is_rigid(LocalIndex node) const { return first_masses_[std::size_t(node)] == rigid_mass_; }
@@ -108,6 +114,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   /// Its particles' places and velocities follow the nodes when they are asked for.
   mutable Setup setup_;
   mutable bool particles_are_present_ = true;
+  bool fitted_;  ///< whether corners stand beside the lattice at rest
 
   std::optional<MeshNodes<Dim>> nodes_;
   std::optional<NodeFields<Dim>> fields_;
