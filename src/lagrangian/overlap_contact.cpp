@@ -216,8 +216,9 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
     energy_ += stiffness * cell_volume_ * part.share * part.answer;
     part.answer += part.change;
     if (!(part.together > 0)) continue;
-    const auto [pressing, of] = std::div(touches[k].pressing, 2);
-    Touched& largest = touched_[std::size_t(pressing_[std::size_t(pressing)].touched)];
+    const std::size_t pressing = std::size_t(touches[k].pressing) / 2,
+                      of = std::size_t(touches[k].pressing) % 2;
+    Touched& largest = touched_[std::size_t(pressing_[pressing].touched)];
     largest.stiffness[of] = std::max(largest.stiffness[of],
                                      OverlapPotential::stiffness(part.together) * part.face * side);
     largest.share[of] = std::max(largest.share[of], part.share / part.together);

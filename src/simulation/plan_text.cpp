@@ -69,7 +69,7 @@ std::vector<std::string> run_time_text(const Preparation<Dim>& preparation,
       "{} {}: {:.3g} ms a step ({} step{} measured)", duration(measured.seconds * plan.steps), on,
       1e3 * measured.seconds, measured.steps, measured.steps == 1 ? "" : "s")};
   if (plan.contact_cells > 0)
-    lines.push_back("where walls have met, a step takes up to three times as long");
+    lines.push_back("until walls have met everywhere, two to four times as long in all");
   return lines;
 }
 

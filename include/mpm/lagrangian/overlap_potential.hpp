@@ -12,8 +12,8 @@ struct OverlapShare {
   double value, slope;
 
   explicit OverlapShare(double share)
-      : value(share < onset ? 0.5 * share * share / onset : share - 0.5 * onset),
-        slope(share < onset ? share / onset : 1.0)
+      : value(share < onset ? 0.5 / onset * share * share : share - 0.5 * onset),
+        slope(share < onset ? 1 / onset * share : 1.0)
   {
   }
 };
@@ -23,21 +23,22 @@ struct OverlapShare {
 /// hardens, so that the dense state does not lose its volume to overlaps: 1 % of the volume is 3 %
 /// of the pressure there.
 struct OverlapPotential {
-  static constexpr double hardening = 0.03;  ///< b
+  static constexpr double hardening = 0.03;                      ///< b
+  static constexpr double harder = 1 / (hardening * hardening);  ///< 1/b^2
 
   double part;   ///< H = T / 2 + T^3 / (4 b^2)
   double slope;  ///< H'
 
   explicit OverlapPotential(double together)
   {
-    const double hard = together * together / (hardening * hardening);
+    const double hard = together * together * harder;
     part = together * (0.5 + 0.25 * hard);
     slope = 0.5 + 0.75 * hard;
   }
   double pressure(double together) const { return part + together * slope; }
   static double stiffness(double together)
   {
-    return 1 + 3 * together * together / (hardening * hardening);
+    return 1 + 3 * together * together * harder;
   }
 };
 

@@ -95,7 +95,7 @@ class Formulation {
   /// s, the largest step that these bear.
   virtual double largest_step() const = 0;
 
-  /// Whether cells, and the particles in them, can go to other ranks between steps.
+  /// Whether cells, and the particles in them, can go to other ranks now. Every rank answers alike.
   virtual bool can_repartition() const = 0;
   /// Returns how many particles this rank sent.
   virtual GlobalIndex repartition(const Ownership<Dim>& ownership) = 0;

@@ -141,7 +141,7 @@ def cooperation(run):
     return [("ranks", f"{summary['ranks']}, {summary['decomposition']}"),
             ("particles of the fullest rank over the mean",
              f"{summary['imbalance']:.3f} at the end, {summary['mean_imbalance']:.3f} on average"),
-            ("the same of the time of work", f"{summary['mean_work_imbalance']:.3f} on average"),
+            ("the same of counted work", f"{summary['mean_work_imbalance']:.3f} on average"),
             ("waiting for messages, of the rank that waits most",
              clock(summary["waiting_seconds"])),
             ("messages a step, of the rank that sends most",
