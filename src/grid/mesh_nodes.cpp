@@ -93,8 +93,8 @@ GlobalIndex MeshNodes<Dim>::key(LocalIndex node, const IndexVec<Dim>& corner) co
   return key;
 }
 
-/// Of each node, where it stands among all ranks', which all ask; `saved`: the corner that it has there, as a node
-/// where an axis begins again may have been another image.
+/// Of each node, where it stands among all ranks', which all ask; `saved`: the corner that it has
+/// there, as a node where an axis begins again may have been another image.
 template <int Dim>
 std::vector<std::int64_t> MeshNodes<Dim>::find_saved(Archive& archive,
                                                      std::vector<IndexVec<Dim>>& saved) const
@@ -114,8 +114,7 @@ std::vector<std::int64_t> MeshNodes<Dim>::find_saved(Archive& archive,
       if (rows[std::size_t(node)] >= 0) continue;
       IndexVec<Dim> image = corner(node);
       for (int d = 0; d < Dim; ++d)
-        if (images >> d & 1 && image[d] % period_[d] == 0)
-          image[d] = period_[d] - image[d];
+        if (images >> d & 1 && image[d] % period_[d] == 0) image[d] = period_[d] - image[d];
       astray.push_back(node);
       at.push_back(image);
       image_keys.push_back(key(node, image));

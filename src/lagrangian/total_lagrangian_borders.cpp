@@ -80,8 +80,8 @@ GlobalIndex TotalLagrangian<Dim>::take_cells(const Ownership<Dim>& ownership)
     std::vector<LocalIndex> all;
     for (LocalIndex p = 0; p < particles.size(); ++p) {
       const IndexVec<Dim> location = location_of_cell(b, p);
-      const int owner = decomposition_.owner_of_cell(
-          decomposition_.geometry().wrapped(grid_cell_of(location)));
+      const int owner =
+          decomposition_.owner_of_cell(decomposition_.geometry().wrapped(grid_cell_of(location)));
       left += owner != decomposition_.rank();
       Mover<Dim>{int(b), particles.ids()[std::size_t(p)], particles.motion()(mass, p), location}
           .pack(out[std::size_t(owner)]);

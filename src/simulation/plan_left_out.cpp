@@ -74,11 +74,10 @@ std::vector<Plan::LeftOut> left_out(const Preparation<Dim>& preparation, const P
   add_if(!particles_hold(plan, "plastic_strain"), "plastic strain and work",
          "no material can yield");
   if (is_total_lagrangian(numerics))
-    list.insert(list.end(),
-                {{"sorting and migration", "cells keep their neighbours"},
-                 {"stencils and weights", "they never change"},
-                 {"empty nodes", "there is none without a cell"},
-                 {"re-mapped momentum", "velocities stay on the nodes"}});
+    list.insert(list.end(), {{"sorting and migration", "cells keep their neighbours"},
+                             {"stencils and weights", "they never change"},
+                             {"empty nodes", "there is none without a cell"},
+                             {"re-mapped momentum", "velocities stay on the nodes"}});
   else
     leave_out_of_grid_step(numerics, plan, list);
   add_if(is_total_lagrangian(numerics) && numerics.contact_stiffness == 0, "contact",

@@ -5,6 +5,7 @@
 #include <mpm/lagrangian/total_lagrangian.hpp>
 #include <mpm/materials/hencky.hpp>
 #include <mpm/parallel/session.hpp>
+#include <mpm/stepping/load_balance.hpp>
 
 #include <algorithm>
 #include <array>
@@ -270,8 +271,8 @@ TEST(TotalLagrangian, GoesOnAlikeWhereBordersMove)
     moved.advance(600);
     GlobalIndex left = 0;
     for (const unsigned seed : {1u, 2u}) {
-      left += moved.stepper().repartition(
-          scattered_blocks(first.geometry(), 3, first.ranks(), seed));
+      left +=
+          moved.stepper().repartition(scattered_blocks(first.geometry(), 3, first.ranks(), seed));
       moved.advance(100);
     }
     moved.stepper().repartition(first);
@@ -284,6 +285,31 @@ TEST(TotalLagrangian, GoesOnAlikeWhereBordersMove)
     EXPECT_NEAR(now.work / one.work, 1, 1e-9);
     EXPECT_LT(largest_difference(now.places, one.places), 1e-9 * cell);
   }
+}
+
+/// Lumens that are pressed flat cost more than the rest: the borders between ranks follow.
+TEST(TotalLagrangian, SharesOutTheWorkOfContact)
+{
+  const Scene scene{.yield = YieldConstants{30e6, 0}, .pressed = true};
+  Ring moved(MPI_COMM_WORLD, scene), still(MPI_COMM_WORLD, scene);
+  LoadBalance<2> balance({}, 0);
+  for (int check = 0; check < 140; ++check) {
+    still.advance(20);
+    moved.advance(20);
+    balance.look(moved.stepper());
+  }
+  const Ring::Found one = still.found(), now = moved.found();
+  EXPECT_GT(one.pairs, 100);
+  EXPECT_NEAR(now.energy / one.energy, 1, 1e-3);
+  const double before = still.stepper().agreed().work_imbalance(),
+               after = moved.stepper().agreed().work_imbalance();
+  if (ranks_of(MPI_COMM_WORLD) == 1) {
+    EXPECT_EQ(balance.repartitions(), 0);
+    return;
+  }
+  EXPECT_GT(before, 1.09);
+  EXPECT_LT(after, 1.06);  // a column of cells is a twelfth of a rank's work, with six of them
+  EXPECT_LT(balance.repartitions(), 6);
 }
 
 /// As where a run goes back, and where one begins on the borders at the start.

@@ -36,10 +36,7 @@ struct OverlapPotential {
     slope = 0.5 + 0.75 * hard;
   }
   double pressure(double together) const { return part + together * slope; }
-  static double stiffness(double together)
-  {
-    return 1 + 3 * together * together * harder;
-  }
+  static double stiffness(double together) { return 1 + 3 * together * together * harder; }
 };
 
 }  // namespace mpm
