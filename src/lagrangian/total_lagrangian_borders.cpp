@@ -1,5 +1,6 @@
 /// Cells on other ranks: what each costs in a step, and how they go where the borders have moved.
 
+#include <mpm/core/error.hpp>
 #include <mpm/core/memory_archive.hpp>
 #include <mpm/lagrangian/total_lagrangian.hpp>
 #include <mpm/parallel/session.hpp>
@@ -106,7 +107,6 @@ GlobalIndex TotalLagrangian<Dim>::take_cells(const Ownership<Dim>& ownership)
   for (Body<Dim>& body : setup_.bodies) body.particles.seal();
   cells_.clear();
   least_stretches_.clear();
-  led_.clear();
   first_masses_.clear();
   make_mesh();
   add_masses();
@@ -123,6 +123,7 @@ GlobalIndex TotalLagrangian<Dim>::repartition(const Ownership<Dim>& ownership)
   const GlobalIndex left = take_cells(ownership);
   TradedState state(decomposition_.comm(), saved);
   archive(state);
+  MPM_ASSERT(state.unread().empty());
   earlier_ = before;
   return left;
 }
