@@ -61,7 +61,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   double largest_step() const override { return setup_.slots.largest_step(); }
 
   /// After a check, which leaves nothing to be counted, where cells are at rest on the lattice,
-  /// none of them fails, and none is rigid.
+  /// none of them fails, and none is rigid: those stay on the ranks that they were given to.
   bool can_repartition() const override
   {
     return checked_ == steps_ && !fitted_ && !cells_may_fail() && setup_.rigid.empty();
