@@ -135,8 +135,8 @@ void TotalLagrangian<Dim>::check()
     loss_ = Loss<Dim>{lost, body.name, {steps_, time_}};
   }
   const double particles = this->particles();
-  double work = 0;
-  visit_work([&](const IndexVec<Dim>&, double amount) { work += amount; });
+  double work = particles;  // as visit_work has it, without asking where
+  if (contact_) contact_->visit_work([&](const IndexVec<Dim>&, double more) { work += more; });
   // The largest of: speeds, work, and minus the step of the first loss; ways of nodes; what failed;
   // particles.
   std::array<double, 7> largest{largest_speed_,

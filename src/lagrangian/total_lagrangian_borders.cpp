@@ -141,6 +141,8 @@ template void TotalLagrangian<2>::visit_work(
     const std::function<void(const IndexVec<2>&, double)>&) const;
 template void TotalLagrangian<3>::visit_work(
     const std::function<void(const IndexVec<3>&, double)>&) const;
+template IndexVec<2> TotalLagrangian<2>::location_of_cell(std::size_t, LocalIndex) const;
+template IndexVec<3> TotalLagrangian<3>::location_of_cell(std::size_t, LocalIndex) const;
 template IndexVec<2> TotalLagrangian<2>::grid_cell_of(const IndexVec<2>&) const;
 template IndexVec<3> TotalLagrangian<3>::grid_cell_of(const IndexVec<3>&) const;
 template GlobalIndex TotalLagrangian<2>::repartition(const Ownership<2>&);

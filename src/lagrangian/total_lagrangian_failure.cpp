@@ -24,7 +24,7 @@ std::vector<double> TotalLagrangian<Dim>::remove_failed()
       failed_.mass += particles.motion()(mass, cell);
       failed_.energy += cells_[b].stored_energy(body, *nodes_, cell);
       if (work >= 0) failed_.plastic_work += particles.state()(work, cell);
-      const IndexVec<Dim>& location = nodes_->corner(cells_[b].nodes_of(cell)[0]);
+      const IndexVec<Dim> location = location_of_cell(b, cell);
       locations.insert(locations.end(), location.begin(), location.end());
     }
     cells_[b].erase(body, found, least_stretches_[b]);
