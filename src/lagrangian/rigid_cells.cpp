@@ -12,6 +12,7 @@ template <int Dim>
 void TotalLagrangian<Dim>::take_rigid_bodies(std::span<const CellNodes> cells)
 {
   rigid_cells_.assign(cells.begin(), cells.end());
+  led_.clear();
   for (const RigidCells<Dim>& rigid : setup_.rigid) {
     // Ranks on which a node has none of the body's cells lead it too.
     std::vector<double> has_it(std::size_t(nodes_->size()), 0.0);

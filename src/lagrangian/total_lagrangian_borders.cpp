@@ -8,16 +8,20 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
+#include <iterator>
+#include <utility>
 
 namespace mpm {
 
 namespace {
 
-/// What goes ahead of a cell's state: body, id, mass, and its location.
+/// What goes ahead of a cell's state: body (rigid ones after the others), id, mass, and its
+/// location.
 template <int Dim>
 struct Mover {
   int body;
-  GlobalIndex id;
+  GlobalIndex id;  ///< of a rigid cell -1
   double mass;
   IndexVec<Dim> location;
 
@@ -32,6 +36,15 @@ struct Mover {
     Mover mover{int(at[0]), std::bit_cast<GlobalIndex>(at[1]), at[2], {}};
     for (int d = 0; d < Dim; ++d) mover.location[d] = LocalIndex(at[3 + d]);
     return mover;
+  }
+  /// By id; rigid cells, which have none, as a lattice is gone through.
+  bool operator<(const Mover& other) const
+  {
+    if (id != other.id) return id < other.id;
+    return std::lexicographical_compare(std::make_reverse_iterator(location.end()),
+                                        std::make_reverse_iterator(location.begin()),
+                                        std::make_reverse_iterator(other.location.end()),
+                                        std::make_reverse_iterator(other.location.begin()));
   }
 };
 
@@ -75,27 +88,36 @@ GlobalIndex TotalLagrangian<Dim>::take_cells(const Ownership<Dim>& ownership)
   decomposition_ = {comm, ownership};
   std::vector<std::vector<double>> out(static_cast<std::size_t>(decomposition_.ranks()));
   GlobalIndex left = 0;
+  const auto send = [&](const Mover<Dim>& mover) {
+    const IndexVec<Dim> cell = decomposition_.geometry().wrapped(grid_cell_of(mover.location));
+    const int owner = decomposition_.owner_of_cell(cell);
+    left += owner != decomposition_.rank();
+    mover.pack(out[std::size_t(owner)]);
+  };
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     ParticleStore& particles = setup_.bodies[b].particles;
     const int mass = particles.motion().find("mass");
     std::vector<LocalIndex> all;
     for (LocalIndex p = 0; p < particles.size(); ++p) {
-      const IndexVec<Dim> location = location_of_cell(b, p);
-      const int owner =
-          decomposition_.owner_of_cell(decomposition_.geometry().wrapped(grid_cell_of(location)));
-      left += owner != decomposition_.rank();
-      Mover<Dim>{int(b), particles.ids()[std::size_t(p)], particles.motion()(mass, p), location}
-          .pack(out[std::size_t(owner)]);
+      send({int(b), particles.ids()[std::size_t(p)], particles.motion()(mass, p),
+            location_of_cell(b, p)});
       all.push_back(p);
     }
     particles.erase(all);
   }
+  for (std::size_t r = 0; r < setup_.rigid.size(); ++r)
+    for (const IndexVec<Dim>& location : std::exchange(setup_.rigid[r].locations, {}))
+      send({int(cells_.size() + r), -1, 0.0, location});
   std::vector<Mover<Dim>> movers;
   for (const std::vector<double>& list : traded_over_ranks(comm, out))
     for (std::size_t k = 0; k < list.size(); k += Mover<Dim>::values)
       movers.push_back(Mover<Dim>::unpacked(&list[k]));
-  std::ranges::sort(movers, {}, &Mover<Dim>::id);
+  std::ranges::sort(movers, std::less<>());
   for (const Mover<Dim>& mover : movers) {
+    if (mover.id < 0) {
+      setup_.rigid[std::size_t(mover.body) - cells_.size()].locations.push_back(mover.location);
+      continue;
+    }
     ParticleStore& particles = setup_.bodies[std::size_t(mover.body)].particles;
     ColumnGroup& motion = particles.motion();
     const LocalIndex p = particles.add(mover.id);

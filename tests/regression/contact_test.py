@@ -144,7 +144,9 @@ class Contact(ProgramTest):
         for label, all_ranks, *settings in (
                 ("rubs", (2, 3, 4, 6), "contact=[{between: [wood, punch], friction: 0.2}]"),
                 ("slides", (4,), "numerics.surface=fitted"),
-                ("sticks_inside", (4,), "specimen.shapes[1].disc.centre[1]=0.6 mm")):
+                ("sticks_inside", (4,), "specimen.shapes[1].disc.centre[1]=0.6 mm"),
+                ("moves", (2, 3, 4, 6), "contact=[{between: [wood, punch], friction: 0.2}]",
+                 "numerics.repartition_interval=20")):
             settings = ["numerics={formulation: total_lagrangian}", "grid.cells=[30, 30]",
                         "specimen.shapes[1].disc.centre[0]=0.487 mm", *settings]
             alone = self.punch(label, *settings)

@@ -60,11 +60,11 @@ class TotalLagrangian final : public Formulation<Dim> {
   Slots<Dim>& slots() override { return setup_.slots; }
   double largest_step() const override { return setup_.slots.largest_step(); }
 
-  /// After a check, which leaves nothing to be counted, where cells are at rest on the lattice,
-  /// none of them fails, and none is rigid: those stay on the ranks that they were given to.
+  /// After a check, which leaves nothing to be counted, where cells are at rest on the lattice and
+  /// none of them fails.
   bool can_repartition() const override
   {
-    return checked_ == steps_ && !fitted_ && !cells_may_fail() && setup_.rigid.empty();
+    return checked_ == steps_ && !fitted_ && !cells_may_fail();
   }
   GlobalIndex repartition(const Ownership<Dim>& ownership) override;
   void visit_work(const std::function<void(const IndexVec<Dim>&, double)>& visit) const override;
