@@ -152,9 +152,10 @@ std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, dou
   return plateau;
 }
 
-/// Through the strains at which the curve first reaches two and four times the plateau's last
+/// Through the strains at which the curve first reaches the two multiples of the plateau's last
 /// stress.
-std::optional<Line> densification_line(const SampledCurve& binned, double plateau_end)
+std::optional<Line> densification_line(const SampledCurve& binned, double plateau_end,
+                                       const CurveOptions& options)
 {
   const auto reaches = [&](double from, double stress) -> std::optional<double> {
     for (std::size_t i = 0; i < binned.strain.size(); ++i)
@@ -163,10 +164,11 @@ std::optional<Line> densification_line(const SampledCurve& binned, double platea
   };
   const Stretch rest = between(binned, plateau_end, binned.strain.back());
   if (rest.stress.empty() || rest.stress.front() <= 0) return std::nullopt;
-  const std::optional<double> twice = reaches(plateau_end, 2 * rest.stress.front());
-  const std::optional<double> four_times = reaches(plateau_end, 4 * rest.stress.front());
-  if (!twice || !four_times) return std::nullopt;
-  return fit_between(binned, *twice, *four_times, 2);
+  const double last = rest.stress.front();
+  const std::optional<double> from = reaches(plateau_end, options.densification_from * last);
+  const std::optional<double> to = reaches(plateau_end, options.densification_to * last);
+  if (!from || !to) return std::nullopt;
+  return fit_between(binned, *from, *to, 2);
 }
 
 std::optional<CurvePoint> meeting(const Line& a, const Line& b)
@@ -257,13 +259,15 @@ CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& op
     return found;
   }
   if (const std::optional<Line> dense =
-          plateau->end ? densification_line(binned, *plateau->end) : std::nullopt) {
+          plateau->end ? densification_line(binned, *plateau->end, options) : std::nullopt) {
     found.densification_slope = dense->slope;
     found.densification = meeting(*dense, plateau->line);
   }
   if (!found.densification)
     add_remark(found.remark,
-               "No onset of densification: the curve ends below four times the plateau's stress.");
+               fmt::format("No onset of densification: the curve ends below {:g} times the "
+                           "plateau's stress.",
+                           options.densification_to));
   return found;
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -28,6 +29,8 @@ struct Request {
   std::string stress_column = "stress";
   std::string discard = "0";
   std::string ringing = "0.4 %";
+  std::pair<double, double> densification_line = {CurveOptions{}.densification_from,
+                                                  CurveOptions{}.densification_to};
   std::string json;
 };
 
@@ -93,6 +96,12 @@ void run(const Request& request)
   options.ringing_strain = strain_of(request.ringing, "--ringing");
   if (!(options.ringing_strain > 0))
     throw InputError(fmt::format("--ringing is {} (must be above 0).", request.ringing));
+  const auto [from, to] = request.densification_line;
+  if (!(from > 1 && to > from))
+    throw InputError(fmt::format(
+        "--densification-line is {:g} {:g} (must be two rising numbers above 1).", from, to));
+  options.densification_from = from;
+  options.densification_to = to;
   const HistoryTable table = mpm::output::read_history(request.file);
   const std::vector<double> strain =
       column_in_si(table, request.strain_column, Quantity::fraction, request.file);
@@ -138,6 +147,10 @@ int main(int argc, char** argv)
                  "2 x piston speed / wave speed")
       ->capture_default_str();
   app.add_option("--ringing", request.ringing, "strain of one period of the curve's ringing")
+      ->capture_default_str();
+  app.add_option("--densification-line", request.densification_line,
+                 "the line that rises from the plateau goes through the points at so many times "
+                 "the plateau's last stress")
       ->capture_default_str();
   app.add_option("--json", request.json, "write the properties to this file as well");
   try {

@@ -46,20 +46,31 @@ std::vector<double> evenly(double end, int count)
   return values;
 }
 
-Output filled_output(const OutputKeys& keys, const std::variant<Loading, FreeMotion>& motion)
+/// Snapshots hold particles in an order that changes when they go from rank to rank: who asks what
+/// is done in each window needs to know them again.
+std::vector<Field> filled_fields(std::vector<Field> fields, const std::vector<Window>& windows)
+{
+  const auto names = [&](Field field) { return std::ranges::find(fields, field) != fields.end(); };
+  if (!windows.empty() && names(Field::plastic_work) && !names(Field::id))
+    fields.push_back(Field::id);
+  return fields;
+}
+
+Output filled_output(const OutputKeys& keys, const Scene& scene)
 {
   constexpr int snapshots = 7;
   Output output = keys;
+  output.fields = filled_fields(keys.fields, scene.specimen.windows);
   const int count = keys.snapshots.count.value_or(snapshots);
   if (keys.snapshots.strains || keys.snapshots.times) {
     output.snapshot_strains = keys.snapshots.strains.value_or(std::vector<double>{});
     output.snapshot_times = keys.snapshots.times.value_or(std::vector<double>{});
     std::ranges::sort(output.snapshot_strains);
     std::ranges::sort(output.snapshot_times);
-  } else if (const auto* loading = std::get_if<Loading>(&motion)) {
+  } else if (const auto* loading = std::get_if<Loading>(&scene.motion)) {
     output.snapshot_strains = evenly(loading->strain, count);
   } else {
-    output.snapshot_times = evenly(std::get<FreeMotion>(motion).end_time, count);
+    output.snapshot_times = evenly(std::get<FreeMotion>(scene.motion).end_time, count);
   }
   return output;
 }
@@ -118,7 +129,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
   for (Load& load : scene.loads) fill_defaults(*load.kind, load.values);
   for (Shape& shape : scene.specimen.shapes)
     if (shape.material.empty()) shape.material = scene.materials.front().name;
-  scene.output = filled_output(keys.output_keys, scene.motion);
+  scene.output = filled_output(keys.output_keys, scene);
   return scene;
 }
 

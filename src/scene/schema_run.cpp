@@ -207,7 +207,9 @@ const std::vector<Parameter<OutputKeys>>& parameters<OutputKeys>()
                 "lines of the history over the whole run"),
       member<O>("snapshots", &O::snapshots, {.default_text = "7, evenly"},
                 "when to write all particles"),
-      member<O>("fields", &O::fields, {}, "of each particle, beside its position"),
+      member<O>("fields", &O::fields, {},
+                "of each particle, beside its position; with `plastic_work` and windows of the "
+                "specimen, `id` too"),
       member<O>("compress", &O::compress, {}, "half the size, three to four times the time"),
       member<O>("checkpoints", &O::checkpoints, {.default_text = "none"},
                 "when to leave the state behind, for --restart"),

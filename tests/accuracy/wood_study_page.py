@@ -8,8 +8,11 @@
     wood_study_page.py --check    only says whether the page is the one that would be written
 """
 import csv
+import json
 import shutil
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import runs  # noqa: F401  (which makes the project's modules known)
@@ -23,11 +26,37 @@ PAGE = runs.PROJECT / "docs" / "wood_study.md"
 FOLDER = runs.PROJECT / "docs" / "wood_study"
 TEXT = Path(__file__).with_name("wood_study_page.md")
 KEPT = ("study.csv", "study.json")
-THEORY = {"foam": theory.honeycomb_rows, "layers": theory.layer_rows}  # of runs, which are not kept
+MPM_CURVE = runs.PROJECT / "build" / "mpm_curve"
+RISING_LINES = ("2", "4"), ("4", "8"), ("8", "16")  # through so many times the plateau's last stress
 PLASTIC_WORK, AXIAL_STRESS = "plastic_work", "axial_stress"
-FRAMES = {"wood_yield": ((3, PLASTIC_WORK), (4, PLASTIC_WORK)),  # runs, from 1 on
-          "wood_poplar": ((1, PLASTIC_WORK), (2, PLASTIC_WORK), (1, AXIAL_STRESS), (2, AXIAL_STRESS)),
-          "wood_ponderosa": ((1, PLASTIC_WORK),)}
+FRAMES = {  # strip of four: number of its first snapshot, and of the run, from 1 on
+    "wood_yield": ((1, 3, PLASTIC_WORK), (1, 4, PLASTIC_WORK)),
+    "wood_poplar": ((0, 1, PLASTIC_WORK), (0, 2, PLASTIC_WORK), (0, 1, AXIAL_STRESS), (0, 2, AXIAL_STRESS)),
+    "wood_ponderosa": ((2, 1, PLASTIC_WORK),)}
+
+
+def onset_of_densification(run, line):
+    with tempfile.TemporaryDirectory() as place:
+        found = Path(place) / "curve.json"
+        subprocess.run([MPM_CURVE, run.folder / "history.csv", "--densification-line", *line, "--json", found],
+                       check=True, stdout=subprocess.DEVNULL)
+        point = json.loads(found.read_text())["compression"]["densification"]
+    return f"{point['stress'] / 1e6:.4g} at {100 * point['strain']:.3g}" if point else "-"
+
+
+def rising_line_rows(study, runs_of_it):
+    """(titles, rows): what the onset of densification owes to the line that is drawn through the rise,
+    beside known ones."""
+    known = ("known_densification_stress", "known_densification_strain")
+    rows = [[study_facts.name_of(study, entry), *(onset_of_densification(run, line) for line in RISING_LINES),
+             "{:.4g} at {:.3g}".format(1e-6 * entry[known[0]], 100 * entry[known[1]])]
+            for entry, run in runs_of_it if all(entry.get(name) for name in known)]
+    return ["run, MPa at % strain", *(f"{a} and {b} times" for a, b in RISING_LINES), "known"], rows
+
+
+# Of runs, which are not kept.
+TABLES = {"foam": theory.honeycomb_rows, "layers": theory.layer_rows, "windows": studies.window_rows,
+          "rising_lines": rising_line_rows}
 
 
 def take(results):
@@ -39,22 +68,23 @@ def take(results):
             shutil.copyfile(folder / name, place / name)
         study = read_study(folder)
         runs_of_it = studies.opened(study, folder)
-        for name, rows_of in THEORY.items():
+        for name, rows_of in TABLES.items():
             titles, rows = rows_of(study, runs_of_it)
             if rows:
                 with open(place / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
                     csv.writer(file, lineterminator="\n").writerows([titles, *rows])
         for picture in (Path(results) / "report").glob(f"{folder.name}_curves.png"):
             shutil.copyfile(picture, FOLDER / picture.name)
-        for number, colour in FRAMES.get(folder.name, ()):
+        for first, number, colour in FRAMES.get(folder.name, ()):
             stem = f"{folder.name}_{number}_{colour}"
-            strip(sorted((Path(results) / "report").glob(f"{stem}_*.png")), FOLDER / f"{stem}.png")
+            strip([Path(results) / "report" / f"{stem}_{first + k:06}.png" for k in range(4)],
+                  FOLDER / f"{stem}.png")
 
 
 def strip(pictures, place):
-    """The first four pictures side by side, as wide as a page."""
+    """The pictures side by side, as wide as a page."""
     from PIL import Image
-    images = [Image.open(picture).convert("RGB") for picture in pictures[:4]]
+    images = [Image.open(picture).convert("RGB") for picture in pictures]
     width = 1600 // len(images)
     images = [image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
               for image in images]
@@ -65,15 +95,15 @@ def strip(pictures, place):
 
 
 def took():
-    heads = ["study", "runs", "variant", "run time, one after the other"]
+    heads = ["study", "runs", "variant", "ranks", "run time"]
     lines = []
-    studies = [read_study(folder) for folder in study_folders(FOLDER)]
-    for study in studies:
-        count, elapsed, _ = study_facts.cost([study])
+    found = [read_study(folder) for folder in study_folders(FOLDER)]
+    for study in found:
+        count, elapsed, core_seconds = study_facts.cost([study])
         lines.append([study.title, str(count), "quick" if study.record["quick"] else "full",
-                      facts.clock(elapsed)])
-    total = study_facts.cost(studies)
-    lines.append(["all", str(total[0]), "", facts.clock(total[1])])
+                      f"{core_seconds / elapsed:g}", facts.clock(elapsed)])
+    total = study_facts.cost(found)
+    lines.append(["all", str(total[0]), "", "", facts.clock(total[1])])
     return table(heads, lines)
 
 
@@ -82,7 +112,7 @@ def values():
     found = {"took": took()}
     for folder in study_folders(FOLDER):
         study = read_study(folder)
-        for name in THEORY:
+        for name in TABLES:
             if (folder / f"{name}.csv").exists():
                 with open(folder / f"{name}.csv", newline="", encoding="utf-8") as file:
                     titles, *rows = csv.reader(file)

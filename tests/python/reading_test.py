@@ -146,6 +146,23 @@ class Reading(ProgramTest):
             mpm_par.work_in_windows(mpm_par.open_run(folder),
                                     [mpm_par.Window("all", (0, 0), (1, 1))])
 
+    def test_cells_that_went_to_other_ranks_are_found_by_their_id(self):
+        """Borders that move change the order, and windows of the scene ask for the id."""
+        moved = ("numerics.repartition_interval=20", "loading.strain=6 %")
+        folder = self.crushed("total_lagrangian", *moved, fields="[plastic_work]")
+        halves = [mpm_par.Window("left", (0, 0), (0.5e-3, 1e-3)),
+                  mpm_par.Window("right", (0.5e-3, 0), (1.1e-3, 1e-3))]
+        run = mpm_par.open_run(folder)
+        self.assertGreater(run.summary["repartitions"], 0)
+        with self.assertRaisesRegex(mpm_par.ResultsError, "has no field id"):
+            mpm_par.work_in_windows(run, halves)
+        run = mpm_par.open_run(self.crushed(
+            "total_lagrangian", "specimen.windows=[{name: left, x: [0 %, 50 %]}]", *moved,
+            fields="[plastic_work]"))
+        self.assertGreater(run.summary["repartitions"], 0)
+        self.assertEqual(run.scene["output"]["fields"], ["plastic_work", "id"])
+        self.check_by_id(run, mpm_par.work_in_windows(run, halves)[0])
+
     def test_a_window_without_particles_is_told(self):
         run = mpm_par.open_run(self.crushed("total_lagrangian"))
         with self.assertRaisesRegex(mpm_par.ResultsError, "window beyond: holds no particle. The "

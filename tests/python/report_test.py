@@ -241,7 +241,7 @@ class Report(ProgramTest):
     def test_of_studies_holds_their_figures_beside_theory_and_what_is_known(self):
         wood = pathlib.Path(__file__).parents[2] / "inputs" / "wood"
         study = (f"# Both directions of a wood.\nscene: {wood}/loblolly_radial.yaml\n"
-                 "set: {grid.cells: [26, 17], loading.speed: 50 m/s, loading.strain: 8 %,\n"
+                 "set: {grid.cells: [26, 17], loading.speed: 50 m/s, loading.strain: 8 %,\n      material.yield_stress: 100 MPa,\n"
                  "      output.snapshots: 2, output.history_lines: 100}\n"
                  "vary: {loading.piston: [right, top], specimen.threshold_shift: [0, 20]}\n"
                  "error: [{name: stress, mean: {strain: [1 %, 6 %]}},\n"
@@ -257,7 +257,7 @@ class Report(ProgramTest):
                               capture_output=True, text=True, timeout=300)
         self.assertEqual(made.returncode, 0, made.stderr + made.stdout)
         text = self.page_of(folder).text
-        from mpm_par import foam, open_run, read_study
+        from mpm_par import Window, foam, open_run, read_study, work_in_windows
         runs = read_study(folder / "one").record["runs"]
         for run in runs:
             stress, found = run["value_stress"], open_run(folder / "one" / run["folder"])
@@ -268,8 +268,11 @@ class Report(ProgramTest):
             if found.axis == 0:  # the windows across x are layers in series
                 densities += found.summary["windows"].values()
             for density in densities:
-                theory = foam.honeycomb(density, 10.6e9, 500e6, True, 0.33)
+                theory = foam.honeycomb(density, 10.6e9, 100e6, True, 0.33)
                 self.assertIn(f"{theory.plastic_collapse / 1e6:.4g}", text)
+            border = (0.473 * found.summary["size"][0], 1)
+            inside, everywhere, _ = work_in_windows(found, [Window("earlywood", (0, 0), border)])
+            self.assertIn(f"{100 * inside[-1, 0] / everywhere[-1]:.3g} at 8 %", text)
         self.assertEqual(text.count(": earlywood"), sum(run["settings"]["loading.piston"] == "right"
                                                         for run in runs) * 2)  # in either study
         by_key = {tuple(run["settings"].values()): run["value_stress"] for run in runs}
@@ -281,7 +284,7 @@ class Report(ProgramTest):
         self.assertIn(f"{statistics.mean(drawn):.4g} ± {float(format(statistics.stdev(drawn), '.2g')):.4g} "
                       f"({min(drawn):.4g} to {max(drawn):.4g})", text)
         for words in ("All 8 runs ended well", "times faster than 60 min to 10 h", "Over drawn specimens", "Both directions of a wood.", "Foam theory",
-                      "What the threshold is worth", "one.yaml", "A book"):
+                      "What the threshold is worth", "Plastic work in the windows", "one.yaml", "A book"):
             self.assertIn(words, text)
         pictures = {path.name for path in (folder / "report").iterdir()}
         self.assertLessEqual({"one_curves.svg", "two_curves.png"}, pictures)

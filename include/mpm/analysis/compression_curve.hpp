@@ -38,6 +38,9 @@ struct CompressionProperties {
 struct CurveOptions {
   double discard_strain = 0;      ///< start-up transient, 2 V/c_p
   double ringing_strain = 0.004;  ///< strain of one ringing period: block of the bootstrap
+  /// The line of densification goes through the points at so many times the plateau's last stress.
+  double densification_from = 2;
+  double densification_to = 4;  ///< above `densification_from`, which is above 1
   int resamples = 50;
 };
 

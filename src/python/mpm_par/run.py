@@ -53,6 +53,12 @@ class Run:
         return self.scene.get("numerics", {}).get("formulation") == "total_lagrangian"
 
     @property
+    def keeps_order(self):
+        """Whether particles have the same place in every snapshot: cells that stayed on their
+        ranks. A run that went on on another number of ranks is not known by its summary."""
+        return self.is_total_lagrangian and not (self.summary or {}).get("repartitions")
+
+    @property
     def thickness(self):
         """Out of the plane, m; 1 in space. Energies of a run in the plane are those of it."""
         return self.quantity("numerics.thickness") or 1.0

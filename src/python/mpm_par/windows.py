@@ -22,9 +22,23 @@ class Window:
         return numpy.logical_and.reduce(inside)
 
 
+def windows_of_scene(run):
+    """The windows that the scene names, as parts of the specimen; none without a summary, which
+    holds the specimen's size."""
+    size = (run.summary or {}).get("size")
+    if not size:
+        return []
+    found = []
+    for window in run.scene.get("specimen", {}).get("windows") or []:
+        ends = [window.get(axis, [0, 1]) for axis in "xyz"[:len(size)]]
+        found.append(Window(window["name"], tuple(s * a for s, (a, _) in zip(size, ends)),
+                            tuple(s * b for s, (_, b) in zip(size, ends))))
+    return found
+
+
 class _Members:
     """Which particles belong to a window, found again in every snapshot: by their id, or, of cells
-    of the total Lagrangian formulation, by their place in the file."""
+    of the total Lagrangian formulation that stayed on their ranks, by their place in the file."""
 
     def __init__(self, first, windows, keeps_order):
         self.first = first
@@ -80,7 +94,7 @@ def work_in_windows(run, windows):
     if not run.snapshots:
         raise ResultsError(f"{run.folder}: holds no snapshots. Run again with output.snapshots.")
     first = run.snapshots[0]
-    members = _Members(first, windows, run.is_total_lagrangian)
+    members = _Members(first, windows, run.keeps_order)
     for window, mask in zip(windows, members.masks):
         if not mask.any():
             lower, upper = first.bounds()

@@ -67,6 +67,18 @@ TEST(MpmCurve, ConvertsTheUnitsOfALaboratoryTable)
   EXPECT_THAT(outcome.text, HasSubstr("onset of buckling       54.4"));
 }
 
+TEST(MpmCurve, DrawsTheLineOfDensificationWhereItIsAskedFor)
+{
+  const std::string file = wood_history("strain [1],stress [Pa]", 1, 1);
+  EXPECT_THAT(run(file).text, HasSubstr(" at 27.9"));
+  EXPECT_THAT(run(file + " --densification-line 4 8").text, HasSubstr(" at 29."));
+  for (const char* wrong : {"4 4", "4 2", "1 2", "nan 3"}) {
+    const Outcome refused = run(file + " --densification-line " + wrong);
+    EXPECT_EQ(refused.status, 2) << wrong;
+    EXPECT_THAT(refused.text, HasSubstr("(must be two rising numbers above 1)")) << wrong;
+  }
+}
+
 TEST(MpmCurve, BadInputIsStatusTwoWithOneClearLine)
 {
   const std::string file = wood_history("strain [1],force [Pa]", 1, 1);

@@ -6,6 +6,8 @@
 namespace mpm::scene {
 namespace {
 
+using ::testing::ElementsAre;
+
 class EffectiveScene : public SceneFolder {
  protected:
   void expect_round_trip(const std::string& text)
@@ -94,6 +96,21 @@ grid: {cells: [20, 10]}
 free_motion: {end_time: 10 us, sides: [rigid, free, symmetric, free]}
 output: {snapshots: 0, fields: []}
 )");
+}
+
+TEST_F(EffectiveScene, SnapshotsOfWindowsHoldTheIdOfEachParticle)
+{
+  const auto fields = [&](const std::string& windows, const std::string& output) {
+    return read("specimen: {micrograph: wood.png" + windows +
+                "}\ngrid: {cells: [20, 10]}\nloading: {piston: right, speed: 10 m/s}\n" + output)
+        .output.fields;
+  };
+  const std::string windows = ", windows: [{name: earlywood, x: [0, 47.3 %]}]";
+  EXPECT_THAT(fields(windows, ""), ElementsAre(Field::von_mises, Field::plastic_work, Field::id));
+  EXPECT_THAT(fields("", ""), ElementsAre(Field::von_mises, Field::plastic_work));
+  EXPECT_THAT(fields(windows, "output: {fields: [stress]}"), ElementsAre(Field::stress));
+  EXPECT_THAT(fields(windows, "output: {fields: [id, plastic_work]}"),
+              ElementsAre(Field::id, Field::plastic_work));
 }
 
 TEST_F(EffectiveScene, OfGrayBandsAndOfOtsuReadsBackTheSame)

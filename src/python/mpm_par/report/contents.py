@@ -7,7 +7,7 @@ import numpy
 
 from mpm_par.problems import ResultsError
 from mpm_par.report import charts, facts, film, page, structure
-from mpm_par.windows import Window, work_in_windows
+from mpm_par.windows import windows_of_scene, work_in_windows
 
 
 @dataclasses.dataclass
@@ -23,20 +23,6 @@ class Request:
     section: float = None
     film_bytes: int = 3_000_000
     remark: str = ""
-
-
-def windows_of_scene(run):
-    """The windows that the scene names, as parts of the specimen; none without a summary, which
-    holds the specimen's size."""
-    size = (run.summary or {}).get("size")
-    if not size:
-        return []
-    found = []
-    for window in run.scene.get("specimen", {}).get("windows") or []:
-        ends = [window.get(axis, [0, 1]) for axis in "xyz"[:len(size)]]
-        found.append(Window(window["name"], tuple(s * a for s, (a, _) in zip(size, ends)),
-                            tuple(s * b for s, (_, b) in zip(size, ends))))
-    return found
 
 
 def _curve(run, asked, made):
@@ -99,7 +85,14 @@ def _windows(run, asked, made):
     return ('<div class="gallery">' + page.figure(made[-1])
             + page.table("At the last snapshot",
                          ("window", "cell wall at the start", "plastic work", "share"), rows)
-            + "</div>")
+            + "</div>" + page.paragraphs(_late_windows(run), "note"))
+
+
+def _late_windows(run):
+    strain = run.snapshots[0].strain
+    return [] if strain < 0.005 else [
+        f"Windows are those of the first snapshot, at {100 * strain:.3g} % strain: add 0 % to "
+        "output.snapshots for those of the specimen as it was."]
 
 
 def _ranks(run, made):

@@ -9,6 +9,7 @@ from mpm_par.problems import ResultsError
 from mpm_par.report import charts, drawing, facts, page, structure, study_facts, theory
 from mpm_par.run import open_run
 from mpm_par.study import read_study, study_folders
+from mpm_par.windows import windows_of_scene, work_in_windows
 
 
 def opened(study, folder):
@@ -97,6 +98,29 @@ def _ladders(stem, study):
                         height=3.6 + 0.15 * entries)
 
 
+def window_rows(study, runs):
+    """(titles, rows): share of the cell wall and, at each snapshot's strain, of the plastic work that
+    each window of the scene has, of runs that left snapshots of it."""
+    rows = []
+    for entry, run in runs:
+        windows = windows_of_scene(run)
+        if not windows or not run.snapshots or "plastic_work" not in run.snapshots[0]:
+            continue
+        try:
+            inside, everywhere, volumes = work_in_windows(run, windows)
+        except ResultsError:
+            continue  # a report of that run says why
+        wall = run.summary["particles"] * run.snapshots[0].particle_volume
+        for k, window in enumerate(windows):
+            shares = [f"{100 * work[k] / whole:.3g} at {100 * snapshot.strain:.3g} %"
+                      for work, whole, snapshot in zip(inside, everywhere, run.snapshots)
+                      if snapshot.strain > 0 and whole > 0]
+            rows.append([study_facts.name_of(study, entry), window.name,
+                         f"{100 * volumes[k] / wall:.3g}", ", ".join(shares) or "-"])
+    return ["run", "window", "share of the cell wall (%)",
+            "share of the plastic work (%), at strain"], rows
+
+
 def _structures(stem, study, runs, made):
     """Frames of the runs that left snapshots, coloured by plastic work and by axial stress, as far as
     a run has them."""
@@ -139,6 +163,7 @@ def _section(folder, study, made):
                      "free sides (Gibson and Ashby)", theory.honeycomb_rows(study, runs))
             + _table("Two layers: moduli out of those in series and in parallel",
                      theory.layer_rows(study, runs))
+            + _table("Plastic work in the windows", window_rows(study, runs))
             + _structures(stem, study, runs, made))
 
 
