@@ -30,6 +30,9 @@ constexpr double smallest_toe = 0.01;
 constexpr double ringing_of_toe = 2.5;
 constexpr int curve_bins = 400;
 constexpr double tangent_reach = 0.03;
+/// Elastic walls on a coarse grid meet within 5 % strain of their buckling.
+constexpr double short_plateau = 1.0 / 3;
+constexpr double before_knee = 0.5;
 constexpr std::size_t fewest_points = 12;
 
 void add_remark(std::string& remark, const std::string& text)
@@ -130,12 +133,14 @@ struct Plateau {
   std::optional<double> end;
 };
 
-std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, double modulus)
+/// Lengths are `scale` times those of wood's usual plateau, which is 10 % strain long and more.
+std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, double modulus,
+                                    double scale)
 {
-  const std::vector<double> tangent = local_slope(binned, tangent_reach);
+  const std::vector<double> tangent = local_slope(binned, tangent_reach * scale);
   std::vector<double> on_plateau;
   for (std::size_t i = 0; i < tangent.size(); ++i)
-    if (binned.strain[i] > knee + 0.02 && binned.strain[i] < knee + 0.12)
+    if (binned.strain[i] > knee + 0.02 * scale && binned.strain[i] < knee + 0.12 * scale)
       on_plateau.push_back(tangent[i]);
   if (on_plateau.empty()) return std::nullopt;
   const double base = median(on_plateau);
@@ -143,10 +148,11 @@ std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, dou
 
   Plateau plateau;
   for (std::size_t i = 0; i < tangent.size() && !plateau.end; ++i)
-    if (binned.strain[i] > knee + 0.05 && tangent[i] > steep) plateau.end = binned.strain[i];
-  const double to = plateau.end ? *plateau.end - 0.03 : binned.strain.back();
-  if (to < knee + 0.04) return std::nullopt;
-  const std::optional<Line> line = fit_between(binned, knee + 0.02, to, 5);
+    if (binned.strain[i] > knee + 0.05 * scale && tangent[i] > steep)
+      plateau.end = binned.strain[i];
+  const double to = plateau.end ? *plateau.end - 0.03 * scale : binned.strain.back();
+  if (to < knee + 0.04 * scale) return std::nullopt;
+  const std::optional<Line> line = fit_between(binned, knee + 0.02 * scale, to, 5);
   if (!line) return std::nullopt;
   plateau.line = *line;
   return plateau;
@@ -176,6 +182,14 @@ std::optional<CurvePoint> meeting(const Line& a, const Line& b)
   const std::optional<double> strain = meeting_point(a, b);
   if (!strain || *strain <= 0) return std::nullopt;
   return CurvePoint{*strain, b(*strain)};
+}
+
+/// Otherwise what was taken for the plateau is the rise that follows a short one: its line meets
+/// the elastic one far before the knee, or nowhere.
+bool meets_at_knee(const Line& rise, const Line& plateau, double knee)
+{
+  const std::optional<CurvePoint> point = meeting(rise, plateau);
+  return point && point->strain > before_knee * knee;
 }
 
 /// Li, Magkiriadis & Harrigan 2006, J. Cell. Plast. 42:371: the strain up to which most energy is
@@ -242,7 +256,9 @@ CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& op
   found.energy_efficiency = most_efficient(binned, knee->position);
   if (!found.modulus) return found;
   const Line rise = soft_start ? soft_start->line : *elastic;
-  const std::optional<Plateau> plateau = find_plateau(binned, knee->position, rise.slope);
+  std::optional<Plateau> plateau = find_plateau(binned, knee->position, rise.slope, 1);
+  if (plateau && !meets_at_knee(rise, plateau->line, knee->position))
+    plateau = find_plateau(binned, knee->position, rise.slope, short_plateau);
   if (plateau) {
     found.plateau_slope = plateau->line.slope;
     found.buckling = meeting(rise, plateau->line);
