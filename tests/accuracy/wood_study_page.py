@@ -130,8 +130,8 @@ def values():
         limits = study_facts.limits(study)
         if limits:
             found[f"{folder.name}_limits"] = "\n".join(f"- {line}" for line in limits)
-        found["machine"] = (f"{study.record['machine']['cores']} cores of an "
-                            f"{study.record['machine']['processor']} processor")
+        processor = study.record["machine"]["processor"].replace("(R)", "").removesuffix(" Processor")
+        found["machine"] = f"{study.record['machine']['cores']} cores of an {processor} processor"
     return found
 
 
