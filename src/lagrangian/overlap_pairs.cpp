@@ -1,5 +1,6 @@
 /// Which cells may meet, on this rank and on others.
 
+#include <mpm/core/index_order.hpp>
 #include <mpm/lagrangian/overlap_contact.hpp>
 #include <mpm/parallel/session.hpp>
 
@@ -218,11 +219,8 @@ void OverlapContact<Dim>::list_pairs(double skin)
   std::ranges::reverse(pairs_);
   turned_.resize(pairs_.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    const IndexVec<Dim>& a = locations_[std::size_t(pairs_[k].first)];
-    const IndexVec<Dim>& b = locations_[std::size_t(pairs_[k].second)];
-    turned_[k] = std::lexicographical_compare(
-        std::make_reverse_iterator(b.end()), std::make_reverse_iterator(b.begin()),
-        std::make_reverse_iterator(a.end()), std::make_reverse_iterator(a.begin()));
+    turned_[k] = stands_before<Dim>(locations_[std::size_t(pairs_[k].second)],
+                                    locations_[std::size_t(pairs_[k].first)]);
   }
 }
 

@@ -1,6 +1,7 @@
 /// Cells on other ranks: what each costs in a step, and how they go where the borders have moved.
 
 #include <mpm/core/error.hpp>
+#include <mpm/core/index_order.hpp>
 #include <mpm/core/memory_archive.hpp>
 #include <mpm/lagrangian/total_lagrangian.hpp>
 #include <mpm/parallel/session.hpp>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <bit>
 #include <functional>
-#include <iterator>
 #include <utility>
 
 namespace mpm {
@@ -40,11 +40,7 @@ struct Mover {
   /// By id; rigid cells, which have none, as a lattice is gone through.
   bool operator<(const Mover& other) const
   {
-    if (id != other.id) return id < other.id;
-    return std::lexicographical_compare(std::make_reverse_iterator(location.end()),
-                                        std::make_reverse_iterator(location.begin()),
-                                        std::make_reverse_iterator(other.location.end()),
-                                        std::make_reverse_iterator(other.location.begin()));
+    return id == other.id ? stands_before<Dim>(location, other.location) : id < other.id;
   }
 };
 
