@@ -27,7 +27,7 @@ FOLDER = runs.PROJECT / "docs" / "wood_study"
 TEXT = Path(__file__).with_name("wood_study_page.md")
 KEPT = ("study.csv", "study.json")
 MPM_CURVE = runs.PROJECT / "build" / "mpm_curve"
-RISING_LINES = ("2", "4"), ("4", "8"), ("8", "16")  # through so many times the plateau's last stress
+RISING_LINES = ("4", "8"), ("8", "16")  # times the plateau's last stress, beside the 2 and 4 of runs
 PLASTIC_WORK, AXIAL_STRESS = "plastic_work", "axial_stress"
 FRAMES = {  # strip of four: number of its first snapshot, and of the run, from 1 on
     "wood_yield": ((1, 3, PLASTIC_WORK), (1, 4, PLASTIC_WORK)),
@@ -40,18 +40,25 @@ def onset_of_densification(run, line):
         found = Path(place) / "curve.json"
         subprocess.run([MPM_CURVE, run.folder / "history.csv", "--densification-line", *line, "--json", found],
                        check=True, stdout=subprocess.DEVNULL)
-        point = json.loads(found.read_text())["compression"]["densification"]
+        return json.loads(found.read_text())["compression"]["densification"]
+
+
+def in_words(point):
     return f"{point['stress'] / 1e6:.4g} at {100 * point['strain']:.3g}" if point else "-"
 
 
 def rising_line_rows(study, runs_of_it):
     """(titles, rows): what the onset of densification owes to the line that is drawn through the rise,
     beside known ones."""
-    known = ("known_densification_stress", "known_densification_strain")
-    rows = [[study_facts.name_of(study, entry), *(onset_of_densification(run, line) for line in RISING_LINES),
-             "{:.4g} at {:.3g}".format(1e-6 * entry[known[0]], 100 * entry[known[1]])]
-            for entry, run in runs_of_it if all(entry.get(name) for name in known)]
-    return ["run, MPa at % strain", *(f"{a} and {b} times" for a, b in RISING_LINES), "known"], rows
+    rows = []
+    for entry, run in runs_of_it:
+        known = {name: entry.get(f"known_densification_{name}") for name in ("stress", "strain")}
+        if all(known.values()):
+            onsets = [run.properties.get("densification"),
+                      *(onset_of_densification(run, line) for line in RISING_LINES), known]
+            rows.append([study_facts.name_of(study, entry), *map(in_words, onsets)])
+    lines = [f"{a} and {b} times" for a, b in (("2", "4"), *RISING_LINES)]
+    return ["run, MPa at % strain", *lines, "known"], rows
 
 
 # Of runs, which are not kept.

@@ -241,7 +241,8 @@ class Report(ProgramTest):
     def test_of_studies_holds_their_figures_beside_theory_and_what_is_known(self):
         wood = pathlib.Path(__file__).parents[2] / "inputs" / "wood"
         study = (f"# Both directions of a wood.\nscene: {wood}/loblolly_radial.yaml\n"
-                 "set: {grid.cells: [26, 17], loading.speed: 50 m/s, loading.strain: 8 %,\n      material.yield_stress: 100 MPa,\n"
+                 "set: {grid.cells: [26, 17], loading.speed: 50 m/s, loading.strain: 8 %,\n"
+                 "      material.yield_stress: 100 MPa,\n"
                  "      output.snapshots: 2, output.history_lines: 100}\n"
                  "vary: {loading.piston: [right, top], specimen.threshold_shift: [0, 20]}\n"
                  "error: [{name: stress, mean: {strain: [1 %, 6 %]}},\n"

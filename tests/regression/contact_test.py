@@ -2,7 +2,7 @@
 import math
 import unittest
 
-from program import History, ProgramTest
+from program import History, ProgramTest, summary
 
 CONFINED = 50e9 * 0.7 / (1.3 * 0.4)
 GRAVITY, ANGLE, MASS = 9.81, math.radians(30), 250
@@ -133,7 +133,9 @@ class Contact(ProgramTest):
         self.assertLess(max(history["momentum_error"]), 1e-12)
 
     def punch(self, label, *settings, ranks=1):
-        history = History(self.results("punch", *settings, ranks=ranks, label=f"{label}_{ranks}"))
+        folder = self.results("punch", *settings, ranks=ranks, label=f"{label}_{ranks}")
+        history = History(folder)
+        self.assertEqual(summary(folder)["repartitions"] > 100, label == "moves" and ranks > 1)
         self.assertLess(max(abs(e) for e in history["energy_error"][60:]), 0.01)
         self.assertLess(max(history["momentum_error"][60:]), 1e-12)
         return history
