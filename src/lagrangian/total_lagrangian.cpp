@@ -23,9 +23,9 @@ template <int Dim>
 TotalLagrangian<Dim>::TotalLagrangian(Decomposition<Dim> decomposition, Setup setup)
     : decomposition_(std::move(decomposition)),
       setup_(std::move(setup)),
-      fitted_(!setup_.offsets.empty())
+      fitted_(largest_over_ranks(decomposition_.comm(), !setup_.offsets.empty()) > 0)
 {
-  for (const Body<Dim>& body : setup_.bodies)
+  for ([[maybe_unused]] const Body<Dim>& body : setup_.bodies)
     MPM_ASSERT(std::ranges::is_sorted(body.particles.ids()));
   make_mesh();
   add_masses();
@@ -267,6 +267,8 @@ std::size_t TotalLagrangian<Dim>::bytes() const
   for (const LocationCells<Dim>& cells : cells_) bytes += cells.bytes();
   for (const auto& stretches : least_stretches_) bytes += stretches.size() * sizeof(double);
   for (const Body<Dim>& body : setup_.bodies) bytes += body.particles.bytes();
+  bytes += (setup_.offsets.offsets.capacity() + setup_.offsets.ways.capacity()) * sizeof(Vec<Dim>) +
+           removed_.capacity() * sizeof(RestCell<Dim>);
   return contact_ ? bytes + contact_->bytes() : bytes;
 }
 

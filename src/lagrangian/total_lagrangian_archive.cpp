@@ -63,14 +63,28 @@ void TotalLagrangian<Dim>::archive_cells(Archive& archive, std::size_t number)
   ParticleStore& particles = setup_.bodies[number].particles;
   if (!archive.regroups()) return particles.archive(archive);
   std::vector<std::int64_t> rows = archive.places_of("id", particles.ids());
-  std::vector<LocalIndex> failed;
-  for (std::size_t cell = 0; cell < rows.size(); ++cell)
-    if (rows[cell] < 0) failed.push_back(LocalIndex(cell));
-  if (!failed.empty()) {
-    cells_[number].erase(setup_.bodies[number], failed, least_stretches_[number]);
-    rows = archive.places_of("id", particles.ids());
+  if (cells_may_fail()) {
+    std::vector<LocalIndex> failed;
+    for (std::size_t cell = 0; cell < rows.size(); ++cell)
+      if (rows[cell] < 0) failed.push_back(LocalIndex(cell));
+    remove(number, failed);
+    rows = archive.places_of("id", particles.ids());  // which all ranks ask
   }
   particles.take(archive, rows);
+}
+
+/// Regrouped, they are known by what has become of particles.
+template <int Dim>
+void TotalLagrangian<Dim>::archive_removed(Archive& archive)
+{
+  if (archive.regroups()) return archive.pass_over("removed_cells");
+  const Archive::Section section(archive, "removed_cells");
+  std::vector<double> list;
+  for (const RestCell<Dim>& cell : removed_) cell.pack(list);
+  archive.list("at_rest", list);
+  removed_.clear();
+  for (std::size_t k = 0; k < list.size(); k += RestCell<Dim>::values)
+    removed_.push_back(RestCell<Dim>::unpacked(&list[k]));
 }
 
 template <int Dim>
@@ -84,9 +98,10 @@ void TotalLagrangian<Dim>::archive_failure(Archive& archive)
   archive.value("energy", failed_.energy, Over::sum);
   archive.value("plastic_work", failed_.plastic_work, Over::sum);
   occupants_.archive(archive);
+  archive_removed(archive);
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     const std::string name = "body" + std::to_string(b);
-    if (archive.regroups()) {  // those that have failed are known by what has become of particles
+    if (archive.regroups()) {
       archive.pass_over(name);
       continue;
     }

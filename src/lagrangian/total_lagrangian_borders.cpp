@@ -1,47 +1,63 @@
 /// Cells on other ranks: what each costs in a step, and how they go where the borders have moved.
 
 #include <mpm/core/error.hpp>
-#include <mpm/core/index_order.hpp>
 #include <mpm/core/memory_archive.hpp>
+#include <mpm/lagrangian/location_table.hpp>
 #include <mpm/lagrangian/total_lagrangian.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/parallel/traded_state.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 namespace mpm {
 
 namespace {
 
-/// What goes ahead of a cell's state: body (rigid ones after the others), id, mass, and its
-/// location.
+/// Where corners stand beside the lattice, on their way to another rank with the cells that have
+/// them.
 template <int Dim>
-struct Mover {
-  int body;
-  GlobalIndex id;  ///< of a rigid cell -1
-  double mass;
-  IndexVec<Dim> location;
+class TradedCorners {
+  static constexpr int corners_of_cell = LocationMesh<Dim>::corners;
 
-  static constexpr std::size_t values = 3 + Dim;
-  void pack(std::vector<double>& list) const
+ public:
+  static constexpr std::size_t values = std::size_t(2 * Dim * corners_of_cell);  ///< of a cell
+  static void pack(const CornerOffsets<Dim>& offsets, const IndexVec<Dim>& location,
+                   std::vector<double>& list)
   {
-    list.insert(list.end(), {double(body), std::bit_cast<double>(id), mass});
-    list.insert(list.end(), location.begin(), location.end());
+    for (int c = 0; c < corners_of_cell; ++c) {
+      const IndexVec<Dim> corner = location + LocationMesh<Dim>::offset_of(c);
+      for (const Vec<Dim>& each : {offsets(corner), offsets.way(corner)})
+        list.insert(list.end(), each.begin(), each.end());
+    }
   }
-  static Mover unpacked(const double* at)
+  void take(const IndexVec<Dim>& location, const double* at)
   {
-    Mover mover{int(at[0]), std::bit_cast<GlobalIndex>(at[1]), at[2], {}};
-    for (int d = 0; d < Dim; ++d) mover.location[d] = LocalIndex(at[3 + d]);
-    return mover;
+    for (int c = 0; c < corners_of_cell; ++c, at += 2 * Dim) {
+      corners_.push_back(location + LocationMesh<Dim>::offset_of(c));
+      values_.insert(values_.end(), at, at + 2 * Dim);
+    }
   }
-  /// By id; rigid cells, which have none, as a lattice is gone through.
-  bool operator<(const Mover& other) const
+  CornerOffsets<Dim> offsets() const
   {
-    return id == other.id ? stands_before<Dim>(location, other.location) : id < other.id;
+    CornerOffsets<Dim> found;
+    if (corners_.empty()) return found;
+    found.corners = box_around<Dim>(corners_);
+    found.offsets.assign(std::size_t(found.corners.size()), Vec<Dim>::Zero());
+    found.ways = found.offsets;
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+      const auto at = std::size_t(number_in(found.corners, corners_[k]));
+      found.offsets[at] = Eigen::Map<const Vec<Dim>>(&values_[k * 2 * Dim]);
+      found.ways[at] = Eigen::Map<const Vec<Dim>>(&values_[k * 2 * Dim + Dim]);
+    }
+    return found;
   }
+
+ private:
+  std::vector<IndexVec<Dim>> corners_;
+  std::vector<double> values_;  ///< of each of them: offset, way
 };
 
 }  // namespace
@@ -61,6 +77,15 @@ void TotalLagrangian<Dim>::visit_work(
 }
 
 template <int Dim>
+RestCell<Dim> TotalLagrangian<Dim>::rest_of(std::size_t body, LocalIndex cell) const
+{
+  const ParticleStore& particles = setup_.bodies[body].particles;
+  const ColumnGroup& motion = particles.motion();
+  return {int(body), particles.ids()[std::size_t(cell)], motion(motion.find("mass"), cell),
+          location_of_cell(body, cell)};
+}
+
+template <int Dim>
 IndexVec<Dim> TotalLagrangian<Dim>::location_of_cell(std::size_t body, LocalIndex cell) const
 {
   return nodes_->corner(cells_[body].nodes_of(cell)[0]);
@@ -76,7 +101,8 @@ IndexVec<Dim> TotalLagrangian<Dim>::grid_cell_of(const IndexVec<Dim>& location) 
 }
 
 /// This rank's cells are those within its new borders, in the order of their ids, on a mesh at
-/// rest: what they and the nodes carry is loaded next. Returns how many have left this rank.
+/// rest, those that have failed among them: what the others and the nodes carry is loaded next.
+/// Returns how many have left this rank.
 template <int Dim>
 GlobalIndex TotalLagrangian<Dim>::take_cells(const Ownership<Dim>& ownership)
 {
@@ -84,42 +110,47 @@ GlobalIndex TotalLagrangian<Dim>::take_cells(const Ownership<Dim>& ownership)
   decomposition_ = {comm, ownership};
   std::vector<std::vector<double>> out(static_cast<std::size_t>(decomposition_.ranks()));
   GlobalIndex left = 0;
-  const auto send = [&](const Mover<Dim>& mover) {
-    const IndexVec<Dim> cell = decomposition_.geometry().wrapped(grid_cell_of(mover.location));
-    const int owner = decomposition_.owner_of_cell(cell);
+  const auto send = [&](const RestCell<Dim>& cell) {
+    const int owner = decomposition_.owner_of_cell(
+        decomposition_.geometry().wrapped(grid_cell_of(cell.location)));
     left += owner != decomposition_.rank();
-    mover.pack(out[std::size_t(owner)]);
+    std::vector<double>& list = out[std::size_t(owner)];
+    cell.pack(list);
+    if (fitted_) TradedCorners<Dim>::pack(setup_.offsets, cell.location, list);
   };
   for (std::size_t b = 0; b < cells_.size(); ++b) {
     ParticleStore& particles = setup_.bodies[b].particles;
-    const int mass = particles.motion().find("mass");
-    std::vector<LocalIndex> all;
-    for (LocalIndex p = 0; p < particles.size(); ++p) {
-      send({int(b), particles.ids()[std::size_t(p)], particles.motion()(mass, p),
-            location_of_cell(b, p)});
-      all.push_back(p);
-    }
+    std::vector<LocalIndex> all(std::size_t(particles.size()));
+    std::iota(all.begin(), all.end(), 0);
+    for (const LocalIndex p : all) send(rest_of(b, p));
     particles.erase(all);
   }
   for (std::size_t r = 0; r < setup_.rigid.size(); ++r)
     for (const IndexVec<Dim>& location : std::exchange(setup_.rigid[r].locations, {}))
       send({int(cells_.size() + r), -1, 0.0, location});
-  std::vector<Mover<Dim>> movers;
+  for (const RestCell<Dim>& cell : std::exchange(removed_, {})) send(cell);
+
+  std::vector<RestCell<Dim>> taken;
+  TradedCorners<Dim> corners;
   for (const std::vector<double>& list : traded_over_ranks(comm, out))
-    for (std::size_t k = 0; k < list.size(); k += Mover<Dim>::values)
-      movers.push_back(Mover<Dim>::unpacked(&list[k]));
-  std::ranges::sort(movers, std::less<>());
-  for (const Mover<Dim>& mover : movers) {
-    if (mover.id < 0) {
-      setup_.rigid[std::size_t(mover.body) - cells_.size()].locations.push_back(mover.location);
+    for (std::size_t k = 0; k < list.size(); k += RestCell<Dim>::values) {
+      taken.push_back(RestCell<Dim>::unpacked(&list[k]));
+      if (!fitted_) continue;
+      corners.take(taken.back().location, &list[k + RestCell<Dim>::values]);
+      k += TradedCorners<Dim>::values;
+    }
+  setup_.offsets = corners.offsets();
+  std::ranges::sort(taken, std::less<>());
+  for (const RestCell<Dim>& cell : taken) {
+    if (cell.id < 0) {
+      setup_.rigid[std::size_t(cell.body) - cells_.size()].locations.push_back(cell.location);
       continue;
     }
-    ParticleStore& particles = setup_.bodies[std::size_t(mover.body)].particles;
+    ParticleStore& particles = setup_.bodies[std::size_t(cell.body)].particles;
     ColumnGroup& motion = particles.motion();
-    const LocalIndex p = particles.add(mover.id);
-    for (int d = 0; d < Dim; ++d)
-      motion(d, p) = (mover.location[d] + 0.5) * setup_.location_size[d];
-    motion(motion.find("mass"), p) = mover.mass;
+    const LocalIndex p = particles.add(cell.id);
+    for (int d = 0; d < Dim; ++d) motion(d, p) = (cell.location[d] + 0.5) * setup_.location_size[d];
+    motion(motion.find("mass"), p) = cell.mass;
     LocationCells<Dim>::initialise(motion, p);
   }
   for (Body<Dim>& body : setup_.bodies) body.particles.seal();
@@ -134,6 +165,7 @@ GlobalIndex TotalLagrangian<Dim>::take_cells(const Ownership<Dim>& ownership)
 template <int Dim>
 GlobalIndex TotalLagrangian<Dim>::repartition(const Ownership<Dim>& ownership)
 {
+  if (decomposition_.ranks() == 1) return 0;
   const Counters before = counters();
   MemoryArchive saved;
   saved.start_saving();
@@ -150,6 +182,7 @@ template <int Dim>
 void TotalLagrangian<Dim>::begin_loading(const Ownership<Dim>& ownership)
 {
   loss_.reset();
+  if (decomposition_.ranks() == 1) return;
   if (ownership.packed() == decomposition_.ownership().packed()) return;
   earlier_ = counters();
   take_cells(ownership);
@@ -159,6 +192,8 @@ template void TotalLagrangian<2>::visit_work(
     const std::function<void(const IndexVec<2>&, double)>&) const;
 template void TotalLagrangian<3>::visit_work(
     const std::function<void(const IndexVec<3>&, double)>&) const;
+template RestCell<2> TotalLagrangian<2>::rest_of(std::size_t, LocalIndex) const;
+template RestCell<3> TotalLagrangian<3>::rest_of(std::size_t, LocalIndex) const;
 template IndexVec<2> TotalLagrangian<2>::location_of_cell(std::size_t, LocalIndex) const;
 template IndexVec<3> TotalLagrangian<3>::location_of_cell(std::size_t, LocalIndex) const;
 template IndexVec<2> TotalLagrangian<2>::grid_cell_of(const IndexVec<2>&) const;

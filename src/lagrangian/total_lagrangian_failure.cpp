@@ -27,9 +27,17 @@ std::vector<double> TotalLagrangian<Dim>::remove_failed()
       const IndexVec<Dim> location = location_of_cell(b, cell);
       locations.insert(locations.end(), location.begin(), location.end());
     }
-    cells_[b].erase(body, found, least_stretches_[b]);
+    remove(b, found);
   }
   return locations;
+}
+
+/// Ascending ones. Where borders move, what they were at rest goes along.
+template <int Dim>
+void TotalLagrangian<Dim>::remove(std::size_t body, std::span<const LocalIndex> cells)
+{
+  for (const LocalIndex cell : cells) removed_.push_back(rest_of(body, cell));
+  cells_[body].erase(setup_.bodies[body], cells, least_stretches_[body]);
 }
 
 /// Goes on without the cells that were at these locations of this rank, once `remove_failed` was
@@ -86,6 +94,8 @@ void TotalLagrangian<Dim>::list_what_is_left()
 
 template std::vector<double> TotalLagrangian<2>::remove_failed();
 template std::vector<double> TotalLagrangian<3>::remove_failed();
+template void TotalLagrangian<2>::remove(std::size_t, std::span<const LocalIndex>);
+template void TotalLagrangian<3>::remove(std::size_t, std::span<const LocalIndex>);
 template void TotalLagrangian<2>::part(std::span<const double>);
 template void TotalLagrangian<3>::part(std::span<const double>);
 

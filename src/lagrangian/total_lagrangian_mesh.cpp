@@ -103,16 +103,16 @@ void TotalLagrangian<Dim>::make_mesh()
     first += count;
   }
   take_rigid_bodies(std::span(mesh.cells).subspan(first));
-  if (!setup_.offsets.empty()) take_rest();
+  if (fitted_) take_rest();
   if constexpr (Dim == 2) list_node_terms();
   if (setup_.contact_stiffness > 0)
     contact_ =
         std::make_unique<OverlapContact<Dim>>(comm, contact_cells(taken), setup_.contact_stiffness,
                                               setup_.pairs, setup_.location_size, period);
-  if (contact_ && cells_may_fail())
-    occupants_ = std::move(taken);
-  else
-    setup_.offsets = {};
+  const bool surfaces_change = contact_ && cells_may_fail();
+  if (surfaces_change) occupants_ = std::move(taken);
+  // Cells that go to another rank are at rest there first.
+  if (!surfaces_change && decomposition_.ranks() == 1) setup_.offsets = {};
   if (contact_ && setup_.pairs.any_friction())
     friction_.assign(Dim * std::size_t(nodes_->size()), 0.0);
 }

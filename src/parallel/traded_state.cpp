@@ -201,6 +201,13 @@ std::vector<std::int64_t> TradedState::rows_where(
   throw std::logic_error("rows are asked for by key: " + full(name));
 }
 
+void TradedState::pass_over(std::string_view section)
+{
+  const std::string within = full(section) + '/';
+  for (auto& [name, entry] : entries_)
+    if (name.starts_with(within)) entry.read = true;
+}
+
 std::vector<std::string> TradedState::unread() const
 {
   std::vector<std::string> names;

@@ -192,6 +192,8 @@ std::string plan_text(const Preparation<Dim>& preparation, const StepMeasurement
   line("", scene.numerics.recovery == scene::Recovery::retry
                ? "another attempt and a snapshot of failure"
                : "a snapshot of failure");
+  if (ranks > 1 && is_total_lagrangian(scene.numerics))
+    line("moving borders", fmt::format("{} more for a moment", memory(plan.bytes())));
   if (measured) {
     lines("run time", run_time_text(preparation, *measured));
     lines("files", files_text(preparation, *measured));

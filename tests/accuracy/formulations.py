@@ -1,11 +1,11 @@
 """Both formulations on the same geometries, to 40 % strain: rings, crops and shipped woods.
 
-    formulations.py MPM_PAR [--quick] [--geometry NAME ...] [--largest K] [--real DIR]
-                            [--work DIR] [--write] [--kept]
+    formulations.py MPM_PAR [--quick] [--geometry NAME ...] [--smallest K] [--largest K]
+                            [--real DIR] [--work DIR] [--write | --beside] [--kept]
 
 Rings are drawn anew at every level. Of a picture the geometry is that of the coarsest level: each of its
 locations becomes k x k particles at the level of k times as many cells. --real adds the micrographs of DIR, which are not shipped. --write puts what is
-kept in DIR into docs/formulations, --kept makes no other runs; --quick runs the coarsest level of rings
+kept in DIR into docs/formulations, --beside lets runs stay there that are not in DIR, --kept makes no other runs; --quick runs the coarsest level of rings
 and crops and writes nothing.
 """
 import argparse
@@ -62,7 +62,7 @@ def crop(x):
                      f"threshold: 150, crop: [{x}, 60, 90, 70]}}"])
 
 
-def wood(name, size, cells, levels=([1, 2, 4], [1, 2, 4])):
+def wood(name, size, cells, levels=([1, 2, 4], [1, 2, 4, 8])):
     return Geometry(WOOD / f"{name}.yaml", size, cells, levels, [FAST])
 
 
@@ -92,14 +92,14 @@ def real(folder, work):
         scene.write_text(f"specimen: {{micrograph: {picture}, pixel_size: {pixel} um, threshold: 128}}\n"
                          "loading: {piston: right, speed: 50 m/s, strain: 40 %}\n")
         found[name] = Geometry(scene, [1e-6 * pixel * width, 1e-6 * pixel * abs(height)],
-                               [75, round(75 * abs(height) / width)], ([1, 2, 4], [1, 2, 4]))
+                               [75, round(75 * abs(height) / width)], ([1, 2, 4], [1, 2, 4, 8]))
     return found
 
 
-def planned(found, largest):
+def planned(found, smallest, largest):
     """(name, formulation, k), the cheapest first."""
     plan = [(name, formulation, k) for name, geometry in found.items() for formulation in FORMULATIONS
-            for k in geometry.levels[formulation] if k <= largest]
+            for k in geometry.levels[formulation] if smallest <= k <= largest]
     return sorted(plan, key=lambda one: (one[2] ** 3 * (8 if one[1] == "total" else 1)))
 
 
@@ -121,10 +121,12 @@ def main():
     arguments.add_argument("mpm_par", type=Path)
     arguments.add_argument("--quick", action="store_true")
     arguments.add_argument("--geometry", nargs="+")
+    arguments.add_argument("--smallest", type=int, default=1)
     arguments.add_argument("--largest", type=int, default=16)
     arguments.add_argument("--real", type=Path)
     arguments.add_argument("--work", type=Path, default=runs.PROJECT / "results" / "formulations")
     arguments.add_argument("--write", action="store_true")
+    arguments.add_argument("--beside", action="store_true")
     arguments.add_argument("--kept", action="store_true")
     given = arguments.parse_args()
     given.work.mkdir(parents=True, exist_ok=True)
@@ -138,7 +140,7 @@ def main():
     pictures = {name: geometry.base(given.mpm_par, given.work, name)
                 for name, geometry in found.items()}
     table = runs.CurveTable(STRAINS, figures_of)
-    for name, formulation, k in planned(found, 1 if given.quick else given.largest):
+    for name, formulation, k in planned(found, given.smallest, 1 if given.quick else given.largest):
         geometry = found[name]
         settings = geometry.settings_at(formulation, k, pictures[name])
         if given.kept and not runs.kept_cost(given.mpm_par, geometry.scene, settings, given.work):
@@ -146,8 +148,12 @@ def main():
         table.add({"geometry": name, "method": formulation, "cells": k * geometry.cells[0], "k": k,
                    "location_area": float(f"{geometry.location_area(k):.8g}")},
                   runs.run(given.mpm_par, geometry.scene, settings, given.work))
-    if given.write and not given.quick:
+    if given.quick:
+        return
+    if given.write:
         table.write("ladders", runs.PROJECT / "docs" / "formulations")
+    elif given.beside:
+        table.write_beside("ladders", runs.PROJECT / "docs" / "formulations")
 
 
 if __name__ == "__main__":

@@ -145,6 +145,19 @@ class CurveTable:
         write_curves(f"{name}_curves.csv", self.strains, self.curves, folder)
         write_machine(self.folder, folder)
 
+    def write_beside(self, name, folder=RESULTS):
+        """Into the files that `write` made: runs that are there give way to the same ones of now. The
+        machine stays the one of those."""
+        head = ("geometry", "method", "cells")
+        measured = {tuple(str(row.get(key)) for key in head) for row in self.rows}
+        with open(folder / f"{name}.csv", newline="") as file:
+            kept = [row for row in csv.DictReader(file)
+                    if tuple(row.get(key) for key in head) not in measured]
+        lines = read_rows(f"{name}_curves.csv", folder)
+        curves = {key: [line[key] for line in lines] for key in lines[0] if key != "strain"}
+        write_rows(f"{name}.csv", kept + self.rows, folder)
+        write_curves(f"{name}_curves.csv", self.strains, curves | self.curves, folder)
+
 
 def write_machine(run, folder=RESULTS):
     """As machine.json in `folder`: the machine that the seconds belong to and the version that ran, from one run's summary."""

@@ -2,6 +2,7 @@
 #include <mpm/core/memory_archive.hpp>
 
 #include "failing_bars.hpp"
+#include "ragged_blocks.hpp"
 #include <gtest/gtest.h>
 
 namespace mpm {
@@ -168,6 +169,67 @@ TEST(Failure, TakesUpWhatWasSavedToTheLastBit)
       EXPECT_EQ(one.energy, two.energy);
     }
   }
+}
+
+/// Before cells fail, where some have, and where surfaces that were none have met.
+TEST(Failure, GoesOnAlikeWhereBordersMove)
+{
+  const Scene<2> pressed{.cells = {20, 9},
+                         .weak = 3,
+                         .limits = {.plastic_strain = 0.05},
+                         .yield = 5e6,
+                         .wall_speed = 10};
+  for (const auto& [scene, steps] : {std::pair(torn, 200), std::pair(pressed, 400)}) {
+    Bar<2> moved(MPI_COMM_WORLD, scene), still(MPI_COMM_WORLD, scene);
+    const Ownership<2> first = moved.stepper().decomposition().ownership();
+    GlobalIndex left = 0;
+    for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
+      left +=
+          moved.stepper().repartition(scattered_blocks(first.geometry(), 3, first.ranks(), seed));
+      for (Bar<2>* bar : {&moved, &still}) bar->advance(steps);
+      const auto one = still.found(), now = moved.found();
+      EXPECT_EQ(now.failed, one.failed);
+      EXPECT_EQ(now.pairs, one.pairs);
+      EXPECT_NEAR(now.energy / one.energy, 1, 1e-9);
+      EXPECT_LT((now.momentum - one.momentum).norm(),
+                1e-11 * std::sqrt(2 * one.energy * still.mass()));
+      EXPECT_LT(largest_difference(now.places, one.places), 1e-9 * edge);
+    }
+    sum_over_ranks(MPI_COMM_WORLD, std::span(&left, 1));
+    EXPECT_EQ(left > 0, first.ranks() > 1);
+    EXPECT_EQ(still.found().failed, still.weak_cells());
+  }
+}
+
+/// As where a run goes back to cells that have failed since, within other borders.
+TEST(Failure, TakesUpWhatWasSavedWithinOtherBorders)
+{
+  Bar<2> run(MPI_COMM_WORLD, torn), anew(MPI_COMM_WORLD, torn);
+  const Ownership<2> first = run.stepper().decomposition().ownership(),
+                     other = scattered_blocks(first.geometry(), 3, first.ranks(), 1);
+  for (const Ownership<2>* borders : {&first, &other}) {
+    run.stepper().repartition(*borders);
+    run.advance(300);
+    MemoryArchive archive;
+    archive.start_saving();
+    run.stepper().archive(archive);
+    run.advance(400);
+    const auto one = run.found();
+    run.stepper().repartition(scattered_blocks(first.geometry(), 5, first.ranks(), 7));
+    run.advance(100);
+    for (Bar<2>* again : {&run, &anew}) {
+      again->stepper().begin_loading(*borders);
+      archive.start_loading();
+      again->stepper().archive(archive);
+      EXPECT_TRUE(archive.unread().empty());
+      again->advance(400);
+      const auto two = again->found();
+      EXPECT_EQ(two.failed, one.failed);
+      EXPECT_EQ(two.places, one.places);
+      EXPECT_EQ(two.energy, one.energy);
+    }
+  }
+  EXPECT_EQ(run.found().failed, run.weak_cells());
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ struct Scene {
 /// Of every corner of the lattice, up to a third of a location; alike at both ends of a period.
 CornerOffsets<2> offsets_of_all()
 {
-  CornerOffsets<2> offsets{{IndexVec<2>::Zero(), 2 * grid_cells + IndexVec<2>::Constant(1)}, {}};
+  CornerOffsets<2> offsets{{IndexVec<2>::Zero(), 2 * grid_cells + IndexVec<2>::Constant(1)}, {}, {}};
   for_each_index(offsets.corners, [&](const IndexVec<2>& at) {
     const double phase = 2 * 3.14159265358979 * at[1] / (2 * grid_cells[1]);
     offsets.offsets.emplace_back(0.3 * size[0] * std::sin(5 * phase + at[0]),
@@ -258,12 +258,15 @@ TEST(TotalLagrangian, TakesUpWhatWasSavedToTheLastBit)
 /// Cells that touch, flow and rub go to other ranks, near and far, and back.
 TEST(TotalLagrangian, GoesOnAlikeWhereBordersMove)
 {
-  for (const bool periodic : {false, true}) {
+  for (const auto& [periodic, fitted] :
+       {std::pair(false, false), std::pair(true, false), std::pair(false, true),
+        std::pair(true, true)}) {
     const Scene scene{.first_y = periodic ? 20 : 6,
                       .yield = YieldConstants{30e6, 0},
                       .pressed = true,
                       .friction = 0.3,
-                      .periodic = periodic};
+                      .periodic = periodic,
+                      .fitted = fitted};
     Ring moved(MPI_COMM_WORLD, scene), still(MPI_COMM_WORLD, scene);
     const Ownership<2> first = moved.stepper().decomposition().ownership();
     ASSERT_TRUE(moved.stepper().can_repartition());

@@ -4,6 +4,7 @@
 
 #include <mpm/lagrangian/location_cells.hpp>
 #include <mpm/lagrangian/occupants.hpp>
+#include <mpm/lagrangian/rest_cell.hpp>
 #include <mpm/lagrangian/rigid_cells.hpp>
 #include <mpm/lagrangian/self_contact.hpp>
 #include <mpm/parallel/halo.hpp>
@@ -60,12 +61,8 @@ class TotalLagrangian final : public Formulation<Dim> {
   Slots<Dim>& slots() override { return setup_.slots; }
   double largest_step() const override { return setup_.slots.largest_step(); }
 
-  /// After a check, which leaves nothing to be counted, where cells are at rest on the lattice and
-  /// none of them fails.
-  bool can_repartition() const override
-  {
-    return checked_ == steps_ && !fitted_ && !cells_may_fail();
-  }
+  /// After a check, which leaves nothing to be counted.
+  bool can_repartition() const override { return checked_ == steps_; }
   GlobalIndex repartition(const Ownership<Dim>& ownership) override;
   void visit_work(const std::function<void(const IndexVec<Dim>&, double)>& visit) const override;
 
@@ -101,11 +98,14 @@ class TotalLagrangian final : public Formulation<Dim> {
   void scale_masses();
   bool cells_may_fail() const { return !setup_.failure.empty(); }
   std::vector<double> remove_failed();
+  void remove(std::size_t body, std::span<const LocalIndex> cells);
   void part(std::span<const double> failed_locations);
   void list_what_is_left();
   void archive_failure(Archive& archive);
+  void archive_removed(Archive& archive);
   void archive_cells(Archive& archive, std::size_t number);
   IndexVec<Dim> location_of(const Body<Dim>& body, LocalIndex particle) const;
+  RestCell<Dim> rest_of(std::size_t body, LocalIndex cell) const;
   IndexVec<Dim> location_of_cell(std::size_t body, LocalIndex cell) const;
   IndexVec<Dim> grid_cell_of(const IndexVec<Dim>& location) const;
   GlobalIndex take_cells(const Ownership<Dim>& ownership);
@@ -118,7 +118,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   /// Its particles' places and velocities follow the nodes when they are asked for.
   mutable Setup setup_;
   mutable bool particles_are_present_ = true;
-  bool fitted_;  ///< whether corners stand beside the lattice at rest
+  bool fitted_;  ///< whether corners stand beside the lattice at rest, on any rank
 
   std::optional<MeshNodes<Dim>> nodes_;
   std::optional<NodeFields<Dim>> fields_;
@@ -147,6 +147,8 @@ class TotalLagrangian final : public Formulation<Dim> {
   Counters earlier_;          ///< of runs that this one goes on with
   FailedCells failed_;        ///< of this rank
   Occupants<Dim> occupants_;  ///< where cells may fail
+  /// Those that have failed here: their nodes hold together what they did not part.
+  std::vector<RestCell<Dim>> removed_;
 
   double time_ = 0, kicked_time_ = 0, last_step_ = 0;
   GlobalIndex steps_ = 0;

@@ -33,7 +33,7 @@ class TradedState final : public Archive {
   std::vector<std::int64_t> rows_where(
       std::string_view name, int width,
       const std::function<bool(std::span<const double> row)>& wanted) override;
-  void pass_over(std::string_view) override {}
+  void pass_over(std::string_view section) override;
   std::vector<std::string> unread() const override;
 
  private:
