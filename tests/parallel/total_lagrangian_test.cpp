@@ -69,7 +69,8 @@ struct Scene {
 /// Of every corner of the lattice, up to a third of a location; alike at both ends of a period.
 CornerOffsets<2> offsets_of_all()
 {
-  CornerOffsets<2> offsets{{IndexVec<2>::Zero(), 2 * grid_cells + IndexVec<2>::Constant(1)}, {}, {}};
+  CornerOffsets<2> offsets{
+      {IndexVec<2>::Zero(), 2 * grid_cells + IndexVec<2>::Constant(1)}, {}, {}};
   for_each_index(offsets.corners, [&](const IndexVec<2>& at) {
     const double phase = 2 * 3.14159265358979 * at[1] / (2 * grid_cells[1]);
     offsets.offsets.emplace_back(0.3 * size[0] * std::sin(5 * phase + at[0]),
@@ -258,9 +259,8 @@ TEST(TotalLagrangian, TakesUpWhatWasSavedToTheLastBit)
 /// Cells that touch, flow and rub go to other ranks, near and far, and back.
 TEST(TotalLagrangian, GoesOnAlikeWhereBordersMove)
 {
-  for (const auto& [periodic, fitted] :
-       {std::pair(false, false), std::pair(true, false), std::pair(false, true),
-        std::pair(true, true)}) {
+  for (const auto& [periodic, fitted] : {std::pair(false, false), std::pair(true, false),
+                                         std::pair(false, true), std::pair(true, true)}) {
     const Scene scene{.first_y = periodic ? 20 : 6,
                       .yield = YieldConstants{30e6, 0},
                       .pressed = true,
