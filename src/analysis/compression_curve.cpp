@@ -184,12 +184,16 @@ std::optional<CurvePoint> meeting(const Line& a, const Line& b)
   return CurvePoint{*strain, b(*strain)};
 }
 
-/// Otherwise what was taken for the plateau is the rise that follows a short one: its line meets
-/// the elastic one far before the knee, or nowhere.
-bool meets_at_knee(const Line& rise, const Line& plateau, double knee)
+/// What was taken for the plateau may be the rise that follows a short one: its line meets the
+/// elastic one far before the knee, or nowhere. A short one that falls is what follows a peak.
+std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, const Line& rise)
 {
-  const std::optional<CurvePoint> point = meeting(rise, plateau);
-  return point && point->strain > before_knee * knee;
+  const std::optional<Plateau> usual = find_plateau(binned, knee, rise.slope, 1);
+  if (!usual) return usual;
+  const std::optional<CurvePoint> point = meeting(rise, usual->line);
+  if (point && point->strain > before_knee * knee) return usual;
+  const std::optional<Plateau> brief = find_plateau(binned, knee, rise.slope, short_plateau);
+  return brief && brief->line.slope < 0 ? usual : brief;
 }
 
 /// Li, Magkiriadis & Harrigan 2006, J. Cell. Plast. 42:371: the strain up to which most energy is
@@ -256,9 +260,7 @@ CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& op
   found.energy_efficiency = most_efficient(binned, knee->position);
   if (!found.modulus) return found;
   const Line rise = soft_start ? soft_start->line : *elastic;
-  std::optional<Plateau> plateau = find_plateau(binned, knee->position, rise.slope, 1);
-  if (plateau && !meets_at_knee(rise, plateau->line, knee->position))
-    plateau = find_plateau(binned, knee->position, rise.slope, short_plateau);
+  const std::optional<Plateau> plateau = find_plateau(binned, knee->position, rise);
   if (plateau) {
     found.plateau_slope = plateau->line.slope;
     found.buckling = meeting(rise, plateau->line);

@@ -199,6 +199,24 @@ TEST(CompressionCurve, ShortPlateauIsNotTakenForTheRiseBehindIt)
   }
 }
 
+TEST(CompressionCurve, FallBehindAPeakIsNotAPlateau)
+{
+  // Two rows of cells that give way one after the other, on a plateau that rises to 22 % strain.
+  const auto rows = [](double strain) {
+    double stress = 3400e6 * strain;
+    for (const auto& [from, more] : {std::pair(0.025, -5150e6), std::pair(0.046, 2870e6),
+                                     std::pair(0.075, -1820e6), std::pair(0.1, 1580e6),
+                                     std::pair(0.22, 1400e6), std::pair(0.28, 2450e6)})
+      stress += more * synthetic::ramp(strain - from, 0.0005);
+    return stress;
+  };
+  const CompressionProperties found = read(sample(rows, 0.45, 6000));
+  ASSERT_TRUE(found.buckling && found.densification);
+  EXPECT_GT(*found.plateau_slope, 0);
+  EXPECT_NEAR(found.densification->strain, 0.25, 0.04);
+  EXPECT_NEAR(found.densification->stress, rows(found.densification->strain), 40e6);
+}
+
 TEST(CompressionCurve, CurveThatEndsEarlyHasNoDensification)
 {
   const CompressionProperties found = read(sample(wood, 0.25, 2500));
