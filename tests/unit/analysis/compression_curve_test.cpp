@@ -204,9 +204,9 @@ TEST(CompressionCurve, FallBehindAPeakIsNotAPlateau)
   // Two rows of cells that give way one after the other, on a plateau that rises to 22 % strain.
   const auto rows = [](double strain) {
     double stress = 3400e6 * strain;
-    for (const auto& [from, more] : {std::pair(0.025, -5150e6), std::pair(0.046, 2870e6),
-                                     std::pair(0.075, -1820e6), std::pair(0.1, 1580e6),
-                                     std::pair(0.22, 1400e6), std::pair(0.28, 2450e6)})
+    for (const auto& [from, more] :
+         {std::pair(0.025, -5150e6), std::pair(0.046, 2870e6), std::pair(0.075, -1820e6),
+          std::pair(0.1, 1580e6), std::pair(0.22, 1400e6), std::pair(0.28, 2450e6)})
       stress += more * synthetic::ramp(strain - from, 0.0005);
     return stress;
   };
