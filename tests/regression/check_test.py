@@ -40,6 +40,14 @@ class Check(ProgramTest):
         self.assertEqual((run.returncode, run.stderr), (0, ""))
         return run.stdout
 
+    def test_memory_that_moving_borders_take_is_said_where_they_move(self):
+        for formulation, ranks in (("total", 1), ("total", 2), ("updated", 2)):
+            words = words_of(self.check(BLOCK, "--set", f"numerics.formulation={formulation}_lagrangian",
+                                        ranks=ranks))
+            said = words["last sound state"].split(" at most")[0] + " for a moment"
+            self.assertEqual(words.get("moving borders"),
+                             said if (formulation, ranks) == ("total", 2) else None)
+
     def test_run_time_is_that_of_measured_steps(self):
         for ranks in (1, 2):
             started = time.monotonic()
