@@ -182,8 +182,8 @@ template <int Dim>
 void TotalLagrangian<Dim>::begin_loading(const Ownership<Dim>& ownership)
 {
   loss_.reset();
-  if (decomposition_.ranks() == 1) return;
-  if (ownership.packed() == decomposition_.ownership().packed()) return;
+  if (decomposition_.ranks() == 1 || ownership.packed() == decomposition_.ownership().packed())
+    return;
   earlier_ = counters();
   take_cells(ownership);
 }

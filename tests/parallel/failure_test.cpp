@@ -2,6 +2,7 @@
 #include <mpm/core/memory_archive.hpp>
 
 #include "failing_bars.hpp"
+#include "other_borders.hpp"
 #include "ragged_blocks.hpp"
 #include <gtest/gtest.h>
 
@@ -12,6 +13,13 @@ namespace {
 /// changes the mean of what is stored by (w dt / 2)^2 at most.
 const Scene<2> torn{
     .cells = {20, 8}, .limits = {.stretch = 1.04}, .rate = 3e4, .fly = 30, .step = 0.005};
+
+/// Crushed in the middle until that fails.
+const Scene<2> pressed{.cells = {20, 9},
+                       .weak = 3,
+                       .limits = {.plastic_strain = 0.05},
+                       .yield = 5e6,
+                       .wall_speed = 10};
 
 /// m, between the middles of the cells on both sides of the weak ones, in a row across.
 template <int Dim>
@@ -94,12 +102,7 @@ TEST(Failure, OfPlasticStrainChangesTheBalanceNoMoreThanTheFlowBefore)
 /// halves come to meet, in the middle of the bar too, where no surface was.
 TEST(Failure, LeavesSurfacesThatMeet)
 {
-  const Scene<2> scene{.cells = {20, 9},
-                       .weak = 3,
-                       .limits = {.plastic_strain = 0.05},
-                       .yield = 5e6,
-                       .wall_speed = 10};
-  Bar<2> bar(MPI_COMM_WORLD, scene), alone(MPI_COMM_SELF, scene);
+  Bar<2> bar(MPI_COMM_WORLD, pressed), alone(MPI_COMM_SELF, pressed);
   const auto first = bar.found();
   double work = 0;
   Vec<2> impulse = Vec<2>::Zero();
@@ -120,7 +123,8 @@ TEST(Failure, LeavesSurfacesThatMeet)
   EXPECT_LT((now.momentum - first.momentum - impulse).norm(),
             1e-11 * std::sqrt(2 * now.energy * bar.mass()));
   EXPECT_GT(now.pairs, 0);
-  for (int row = 0; row < scene.cells[1]; ++row) EXPECT_GT(gap(bar, now, scene, row), 0.87 * edge);
+  for (int row = 0; row < pressed.cells[1]; ++row)
+    EXPECT_GT(gap(bar, now, pressed, row), 0.87 * edge);
 }
 
 /// Nodes without cells fly on as they did, and no speed of theirs sets a step.
@@ -174,11 +178,6 @@ TEST(Failure, TakesUpWhatWasSavedToTheLastBit)
 /// Before cells fail, where some have, and where surfaces that were none have met.
 TEST(Failure, GoesOnAlikeWhereBordersMove)
 {
-  const Scene<2> pressed{.cells = {20, 9},
-                         .weak = 3,
-                         .limits = {.plastic_strain = 0.05},
-                         .yield = 5e6,
-                         .wall_speed = 10};
   for (const auto& [scene, steps] : {std::pair(torn, 200), std::pair(pressed, 400)}) {
     Bar<2> moved(MPI_COMM_WORLD, scene), still(MPI_COMM_WORLD, scene);
     const Ownership<2> first = moved.stepper().decomposition().ownership();
@@ -201,34 +200,11 @@ TEST(Failure, GoesOnAlikeWhereBordersMove)
   }
 }
 
-/// As where a run goes back to cells that have failed since, within other borders.
+/// Also to cells that have failed since.
 TEST(Failure, TakesUpWhatWasSavedWithinOtherBorders)
 {
   Bar<2> run(MPI_COMM_WORLD, torn), anew(MPI_COMM_WORLD, torn);
-  const Ownership<2> first = run.stepper().decomposition().ownership(),
-                     other = scattered_blocks(first.geometry(), 3, first.ranks(), 1);
-  for (const Ownership<2>* borders : {&first, &other}) {
-    run.stepper().repartition(*borders);
-    run.advance(300);
-    MemoryArchive archive;
-    archive.start_saving();
-    run.stepper().archive(archive);
-    run.advance(400);
-    const auto one = run.found();
-    run.stepper().repartition(scattered_blocks(first.geometry(), 5, first.ranks(), 7));
-    run.advance(100);
-    for (Bar<2>* again : {&run, &anew}) {
-      again->stepper().begin_loading(*borders);
-      archive.start_loading();
-      again->stepper().archive(archive);
-      EXPECT_TRUE(archive.unread().empty());
-      again->advance(400);
-      const auto two = again->found();
-      EXPECT_EQ(two.failed, one.failed);
-      EXPECT_EQ(two.places, one.places);
-      EXPECT_EQ(two.energy, one.energy);
-    }
-  }
+  expect_taken_up_within_other_borders(run, anew, {.before = 300, .compared = 400, .astray = 100});
   EXPECT_EQ(run.found().failed, run.weak_cells());
 }
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 
+#include "other_borders.hpp"
 #include "ragged_blocks.hpp"
 #include "sums_of_bodies.hpp"
 #include <gtest/gtest.h>
@@ -315,32 +316,11 @@ TEST(TotalLagrangian, SharesOutTheWorkOfContact)
   EXPECT_LT(balance.repartitions(), 6);
 }
 
-/// As where a run goes back, and where one begins on the borders at the start.
 TEST(TotalLagrangian, TakesUpWhatWasSavedWithinOtherBorders)
 {
   const Scene scene{.yield = YieldConstants{30e6, 0}, .pressed = true, .friction = 0.3};
   Ring run(MPI_COMM_WORLD, scene), anew(MPI_COMM_WORLD, scene);
-  const Ownership<2> first = run.stepper().decomposition().ownership(),
-                     other = scattered_blocks(first.geometry(), 3, first.ranks(), 1);
-  for (const Ownership<2>* borders : {&first, &other}) {
-    run.stepper().repartition(*borders);
-    run.advance(300);
-    MemoryArchive archive;
-    archive.start_saving();
-    run.stepper().archive(archive);
-    run.advance(100);
-    const std::vector<double> places = run.found().places;
-    run.stepper().repartition(scattered_blocks(first.geometry(), 5, first.ranks(), 7));
-    run.advance(60);
-    for (Ring* again : {&run, &anew}) {
-      again->stepper().begin_loading(*borders);
-      archive.start_loading();
-      again->stepper().archive(archive);
-      EXPECT_TRUE(archive.unread().empty());
-      again->advance(100);
-      EXPECT_EQ(again->found().places, places);
-    }
-  }
+  expect_taken_up_within_other_borders(run, anew, {.before = 300, .compared = 100, .astray = 60});
 }
 
 TEST(TotalLagrangian, GoesOnAcrossAPeriodicSide)
