@@ -267,8 +267,7 @@ std::size_t TotalLagrangian<Dim>::bytes() const
   for (const LocationCells<Dim>& cells : cells_) bytes += cells.bytes();
   for (const auto& stretches : least_stretches_) bytes += stretches.size() * sizeof(double);
   for (const Body<Dim>& body : setup_.bodies) bytes += body.particles.bytes();
-  bytes += (setup_.offsets.offsets.capacity() + setup_.offsets.ways.capacity()) * sizeof(Vec<Dim>) +
-           removed_.capacity() * sizeof(RestCell<Dim>);
+  bytes += setup_.offsets.bytes() + removed_.capacity() * sizeof(RestCell<Dim>);
   return contact_ ? bytes + contact_->bytes() : bytes;
 }
 

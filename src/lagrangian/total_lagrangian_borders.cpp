@@ -19,11 +19,10 @@ namespace {
 /// Where corners stand beside the lattice, on their way to another rank with the cells that have
 /// them.
 template <int Dim>
-class TradedCorners {
+struct TradedCorners {
   static constexpr int corners_of_cell = LocationMesh<Dim>::corners;
-
- public:
   static constexpr std::size_t values = std::size_t(2 * Dim * corners_of_cell);  ///< of a cell
+
   static void pack(const CornerOffsets<Dim>& offsets, const IndexVec<Dim>& location,
                    std::vector<double>& list)
   {
@@ -33,31 +32,12 @@ class TradedCorners {
         list.insert(list.end(), each.begin(), each.end());
     }
   }
-  void take(const IndexVec<Dim>& location, const double* at)
+  static void unpack(const double* at, const IndexVec<Dim>& location, CornerOffsets<Dim>& offsets)
   {
-    for (int c = 0; c < corners_of_cell; ++c, at += 2 * Dim) {
-      corners_.push_back(location + LocationMesh<Dim>::offset_of(c));
-      values_.insert(values_.end(), at, at + 2 * Dim);
-    }
+    for (int c = 0; c < corners_of_cell; ++c, at += 2 * Dim)
+      offsets.add(location + LocationMesh<Dim>::offset_of(c), Eigen::Map<const Vec<Dim>>(at),
+                  Eigen::Map<const Vec<Dim>>(at + Dim));
   }
-  CornerOffsets<Dim> offsets() const
-  {
-    CornerOffsets<Dim> found;
-    if (corners_.empty()) return found;
-    found.corners = box_around<Dim>(corners_);
-    found.offsets.assign(std::size_t(found.corners.size()), Vec<Dim>::Zero());
-    found.ways = found.offsets;
-    for (std::size_t k = 0; k < corners_.size(); ++k) {
-      const auto at = std::size_t(number_in(found.corners, corners_[k]));
-      found.offsets[at] = Eigen::Map<const Vec<Dim>>(&values_[k * 2 * Dim]);
-      found.ways[at] = Eigen::Map<const Vec<Dim>>(&values_[k * 2 * Dim + Dim]);
-    }
-    return found;
-  }
-
- private:
-  std::vector<IndexVec<Dim>> corners_;
-  std::vector<double> values_;  ///< of each of them: offset, way
 };
 
 }  // namespace
@@ -131,15 +111,16 @@ GlobalIndex TotalLagrangian<Dim>::take_cells(const Ownership<Dim>& ownership)
   for (const RestCell<Dim>& cell : std::exchange(removed_, {})) send(cell);
 
   std::vector<RestCell<Dim>> taken;
-  TradedCorners<Dim> corners;
+  CornerOffsets<Dim> offsets;
   for (const std::vector<double>& list : traded_over_ranks(comm, out))
     for (std::size_t k = 0; k < list.size(); k += RestCell<Dim>::values) {
       taken.push_back(RestCell<Dim>::unpacked(&list[k]));
       if (!fitted_) continue;
-      corners.take(taken.back().location, &list[k + RestCell<Dim>::values]);
+      TradedCorners<Dim>::unpack(&list[k + RestCell<Dim>::values], taken.back().location, offsets);
       k += TradedCorners<Dim>::values;
     }
-  setup_.offsets = corners.offsets();
+  offsets.seal();
+  setup_.offsets = std::move(offsets);
   std::ranges::sort(taken, std::less<>());
   for (const RestCell<Dim>& cell : taken) {
     if (cell.id < 0) {

@@ -112,7 +112,16 @@ void TotalLagrangian<Dim>::make_mesh()
   const bool surfaces_change = contact_ && cells_may_fail();
   if (surfaces_change) occupants_ = std::move(taken);
   // Cells that go to another rank are at rest there first.
-  if (!surfaces_change && decomposition_.ranks() == 1) setup_.offsets = {};
+  CornerOffsets<Dim> kept;
+  if (fitted_ && (surfaces_change || decomposition_.ranks() > 1)) {
+    kept.reserve(std::size_t(nodes_->size()));
+    for (LocalIndex node = 0; node < nodes_->size(); ++node) {
+      const IndexVec<Dim>& corner = nodes_->corner(node);
+      kept.add(corner, setup_.offsets(corner), setup_.offsets.way(corner));
+    }
+    kept.seal();
+  }
+  setup_.offsets = std::move(kept);
   if (contact_ && setup_.pairs.any_friction())
     friction_.assign(Dim * std::size_t(nodes_->size()), 0.0);
 }

@@ -291,15 +291,15 @@ CornerOffsets<2> fitted_corners(const IndexBox<2>& locations, const FittedLattic
   CornerOffsets<2> fitted;
   if (locations.empty()) return fitted;
   const IndexVec<2> one = IndexVec<2>::Constant(1);
-  fitted.corners = {locations.lower, locations.upper + one};
+  const IndexBox<2> corners{locations.lower, locations.upper + one};
   const auto reach = IndexVec<2>::Constant(fitting_reach);
-  const Fitter fitter({fitted.corners.lower - reach, fitted.corners.upper + reach}, lattice, wall);
-  fitted.offsets.reserve(std::size_t(fitted.corners.size()));
-  fitted.ways.reserve(std::size_t(fitted.corners.size()));
-  for_each_index(fitted.corners, [&](const IndexVec<2>& at) {
-    fitted.offsets.push_back(fitter.offset(at).cwiseProduct(lattice.location_size));
-    fitted.ways.push_back(fitter.way(at).cwiseProduct(lattice.location_size));
+  const Fitter fitter({corners.lower - reach, corners.upper + reach}, lattice, wall);
+  fitted.reserve(std::size_t(corners.size()));
+  for_each_index(corners, [&](const IndexVec<2>& at) {
+    fitted.add(at, fitter.offset(at).cwiseProduct(lattice.location_size),
+               fitter.way(at).cwiseProduct(lattice.location_size));
   });
+  fitted.seal();
   return fitted;
 }
 

@@ -145,9 +145,16 @@ void plan_mesh(const Preparation<Dim>& preparation, Plan& plan)
                                              {"corner_forces", corners * Dim * int(sizeof(double))},
                                              {"corner_bounds", 2 * int(sizeof(double))},
                                              {"least_stretch", int(sizeof(double))}});
-  if (preparation.scene.numerics.surface == scene::Surface::fitted)
+  const auto& materials = preparation.scene.materials;
+  const bool surfaces_change =
+      contact_stiffness(preparation.scene.numerics) > 0 &&
+      std::ranges::any_of(materials, [](const auto& material) { return bool(material.failure); });
+  const bool fitted = preparation.scene.numerics.surface == scene::Surface::fitted;
+  if (fitted && (surfaces_change || counts.size() > 1))
+    plan.nodes.columns.push_back({"at_rest", CornerOffsets<Dim>::bytes_of_corner});
+  if (fitted)
     for (Plan::Particles& body : plan.bodies)
-      for (const scene::Material& material : preparation.scene.materials)
+      for (const scene::Material& material : materials)
         if (material.name == body.body && material.failure && material.failure->stretch)
           body.columns.push_back({"rest_deformation", Dim * Dim * int(sizeof(double))});
   PassOutline& pass = plan.passes.emplace_back();

@@ -70,13 +70,14 @@ struct Scene {
 /// Of every corner of the lattice, up to a third of a location; alike at both ends of a period.
 CornerOffsets<2> offsets_of_all()
 {
-  CornerOffsets<2> offsets{
-      {IndexVec<2>::Zero(), 2 * grid_cells + IndexVec<2>::Constant(1)}, {}, {}};
-  for_each_index(offsets.corners, [&](const IndexVec<2>& at) {
-    const double phase = 2 * 3.14159265358979 * at[1] / (2 * grid_cells[1]);
-    offsets.offsets.emplace_back(0.3 * size[0] * std::sin(5 * phase + at[0]),
-                                 0.3 * size[1] * std::cos(7 * phase + 2 * at[0]));
-  });
+  CornerOffsets<2> offsets;
+  for_each_index(IndexBox<2>{IndexVec<2>::Zero(), 2 * grid_cells + IndexVec<2>::Constant(1)},
+                 [&](const IndexVec<2>& at) {
+                   const double phase = 2 * 3.14159265358979 * at[1] / (2 * grid_cells[1]);
+                   offsets.add(at, {0.3 * size[0] * std::sin(5 * phase + at[0]),
+                                    0.3 * size[1] * std::cos(7 * phase + 2 * at[0])});
+                 });
+  offsets.seal();
   return offsets;
 }
 

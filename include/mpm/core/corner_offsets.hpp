@@ -1,30 +1,54 @@
 #pragma once
 /// How far corners of a lattice stand from where the lattice has them.
 
-#include <mpm/core/index_box.hpp>
+#include <mpm/core/index_order.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace mpm {
 
-/// Of a box of corners, m; corners beyond it stand on the lattice.
+/// m; corners that are not listed stand on the lattice.
 template <int Dim>
-struct CornerOffsets {
-  IndexBox<Dim> corners{};
-  std::vector<Vec<Dim>> offsets;  ///< x fastest; empty: all stand on the lattice
-  std::vector<Vec<Dim>> ways;     ///< from there to where contact sees them
+class CornerOffsets {
+  struct Corner {
+    IndexVec<Dim> at;
+    Vec<Dim> offset, way;
+  };
 
-  bool empty() const { return offsets.empty(); }
-  Vec<Dim> operator()(const IndexVec<Dim>& corner) const
+ public:
+  static constexpr std::size_t bytes_of_corner = sizeof(Corner);
+
+  void reserve(std::size_t corners) { corners_.reserve(corners); }
+  /// `way`: from there to where contact sees it.
+  void add(const IndexVec<Dim>& at, const Vec<Dim>& offset, const Vec<Dim>& way = Vec<Dim>::Zero())
   {
-    if (empty() || !corners.contains(corner)) return Vec<Dim>::Zero();
-    return offsets[std::size_t(number_in(corners, corner))];
+    corners_.push_back({at, offset, way});
   }
-  Vec<Dim> way(const IndexVec<Dim>& corner) const
+  /// Once all are added, and before any is asked for. One that was added again stays once.
+  void seal()
   {
-    if (ways.empty() || !corners.contains(corner)) return Vec<Dim>::Zero();
-    return ways[std::size_t(number_in(corners, corner))];
+    std::ranges::sort(corners_, stands_before<Dim>, &Corner::at);
+    const auto doubles = std::ranges::unique(corners_, {}, &Corner::at);
+    corners_.erase(doubles.begin(), doubles.end());
+    corners_.shrink_to_fit();
   }
+
+  bool empty() const { return corners_.empty(); }
+  Vec<Dim> operator()(const IndexVec<Dim>& at) const { return of(at, &Corner::offset); }
+  Vec<Dim> way(const IndexVec<Dim>& at) const { return of(at, &Corner::way); }
+  std::size_t bytes() const { return corners_.capacity() * bytes_of_corner; }
+
+ private:
+  Vec<Dim> of(const IndexVec<Dim>& at, Vec<Dim> Corner::*value) const
+  {
+    const auto found = std::ranges::lower_bound(corners_, at, stands_before<Dim>, &Corner::at);
+    if (found == corners_.end() || found->at != at) return Vec<Dim>::Zero();
+    return *found.*value;
+  }
+
+  std::vector<Corner> corners_;  ///< in the order in which a lattice is gone through
 };
 
 }  // namespace mpm

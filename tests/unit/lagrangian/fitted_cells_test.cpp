@@ -107,9 +107,12 @@ class Block {
   {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> around(-0.3, 0.3);
-    CornerOffsets<2> offsets{{IndexVec<2>::Zero(), IndexVec<2>::Constant(nodes_across)}, {}, {}};
-    for (int k = 0; k < 16; ++k)
-      offsets.offsets.emplace_back(around(random) * size[0], around(random) * size[1]);
+    CornerOffsets<2> offsets;
+    for (const IndexVec<2>& corner : corners()) {
+      const double x = around(random) * size[0];
+      offsets.add(corner, {x, around(random) * size[1]});
+    }
+    offsets.seal();
     return offsets;
   }
 

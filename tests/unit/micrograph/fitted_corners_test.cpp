@@ -39,6 +39,11 @@ IndexBox<2> whole(const IndexVec<2>& count)
   return {IndexVec<2>::Zero(), count};
 }
 
+IndexBox<2> corners_of(const IndexBox<2>& locations)
+{
+  return {locations.lower, locations.upper + IndexVec<2>::Constant(1)};
+}
+
 /// Of the wall's cells.
 double area(const CornerOffsets<2>& offsets, const FittedLattice& lattice)
 {
@@ -63,9 +68,10 @@ TEST(FittedCorners, StayWhereFacesLieOnTheLattice)
   const Inclined wall(0, 4, 7);
   const FittedLattice lattice = lattice_of(wall, count);
   const CornerOffsets<2> fitted = fitted_corners(whole(count), lattice, wall);
-  for (const Vec<2>& offset : fitted.offsets)
-    EXPECT_LT(offset.norm(), 1e-8);  // the place at which a face is found is halved so far
-  for (const Vec<2>& way : fitted.ways) EXPECT_EQ(way, (Vec<2>::Zero()));
+  for_each_index(corners_of(whole(count)), [&](const IndexVec<2>& at) {
+    EXPECT_LT(fitted(at).norm(), 1e-8);  // the place at which a face is found is halved so far
+    EXPECT_EQ(fitted.way(at), (Vec<2>::Zero()));
+  });
 }
 
 TEST(FittedCorners, StandOnFacesAlongTheLattice)
@@ -148,7 +154,7 @@ TEST(FittedCorners, AreTheSameInEveryPart)
   const CornerOffsets<2> all = fitted_corners(whole(count), lattice, wall);
   for (const IndexBox<2>& part : {IndexBox<2>{{0, 0}, {40, 90}}, IndexBox<2>{{40, 30}, {70, 61}}}) {
     const CornerOffsets<2> some = fitted_corners(part, lattice, wall);
-    for_each_index(some.corners, [&](const IndexVec<2>& at) {
+    for_each_index(corners_of(part), [&](const IndexVec<2>& at) {
       EXPECT_EQ(some(at), all(at));
       EXPECT_EQ(some.way(at), all.way(at));
     });
