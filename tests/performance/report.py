@@ -1,5 +1,7 @@
 """docs/performance.md from the stored table, the plan, what parts cost (left_out.py), and the
 hand-written bounds and changes."""
+import re
+
 from measuring import PROJECT
 from plan import plan
 from studies import study_table
@@ -14,6 +16,11 @@ PICTURE = PROJECT / "docs" / "images" / "cost_growth.png"
 
 def section(title, text, remark=""):
     return f"## {title}\n\n" + (f"{remark}\n\n" if remark else "") + text + "\n" if text else ""
+
+
+def as_section(page_text):
+    """A page of the folder performance, a level deeper and seen from the folder above."""
+    return re.sub(r"^#", "##", page_text, flags=re.MULTILINE).replace("](../", "](")
 
 
 def page(table, release):
@@ -53,7 +60,7 @@ def page(table, release):
         section("1e8 particles", planned if plan(table) else "",
                 "Computed from the figures of eight million particles on 2 ranks; messages between "
                 "more ranks are not in it."),
-        LEFT_OUT.read_text(), BOUNDS.read_text(), CHANGES.read_text()]
+        *(as_section(part.read_text()) for part in (LEFT_OUT, BOUNDS, CHANGES))]
     return "\n".join(part for part in parts if part)
 
 
