@@ -30,8 +30,8 @@ class CornerOffsets {
   void seal()
   {
     std::ranges::sort(corners_, stands_before<Dim>, &Corner::at);
-    const auto doubles = std::ranges::unique(corners_, {}, &Corner::at);
-    corners_.erase(doubles.begin(), doubles.end());
+    const auto is_same = [](const Corner& a, const Corner& b) { return a.at == b.at; };
+    corners_.erase(std::unique(corners_.begin(), corners_.end(), is_same), corners_.end());
     corners_.shrink_to_fit();
   }
 
