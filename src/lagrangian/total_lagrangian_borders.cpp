@@ -2,7 +2,6 @@
 
 #include <mpm/core/error.hpp>
 #include <mpm/core/memory_archive.hpp>
-#include <mpm/lagrangian/location_table.hpp>
 #include <mpm/lagrangian/total_lagrangian.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/parallel/traded_state.hpp>

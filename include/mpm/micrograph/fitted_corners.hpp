@@ -2,6 +2,7 @@
 /// Corners of locations moved to where the wall ends in the picture or in the shapes.
 
 #include <mpm/core/corner_offsets.hpp>
+#include <mpm/core/index_box.hpp>
 #include <mpm/micrograph/wall_places.hpp>
 
 #include <array>

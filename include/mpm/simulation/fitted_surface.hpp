@@ -2,6 +2,7 @@
 /// Cells whose corners stand on the surface of what the scene describes.
 
 #include <mpm/core/corner_offsets.hpp>
+#include <mpm/core/index_box.hpp>
 #include <mpm/simulation/layout.hpp>
 
 namespace mpm {
