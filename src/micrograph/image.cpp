@@ -168,13 +168,18 @@ GrayImage read_slices(const std::vector<std::filesystem::path>& files)
 
 }  // namespace
 
-void add_slice(GrayImage& stack, const GrayImage& slice)
+void check_next_slice(const GrayImage& stack, std::int64_t width, std::int64_t height)
 {
-  if (slice.width != stack.width || slice.height != stack.height)
+  if (width != stack.width || height != stack.height)
     throw InputError(
         fmt::format("slice {} has {} x {} pixels, those before it {} x {}. Give all slices one "
                     "size.",
-                    stack.slices + 1, slice.width, slice.height, stack.width, stack.height));
+                    stack.slices + 1, width, height, stack.width, stack.height));
+}
+
+void add_slice(GrayImage& stack, const GrayImage& slice)
+{
+  check_next_slice(stack, slice.width, slice.height);
   stack.gray.insert(stack.gray.end(), slice.gray.begin(), slice.gray.end());
   ++stack.slices;
 }

@@ -32,8 +32,12 @@ class QuietTiff {
 
   [[noreturn]] static void fail()
   {
-    throw InputError(fmt::format("is a damaged or unusual TIFF ({}). Save it again, as 8-bit gray.",
-                                 first_error().empty() ? "no reason given" : first_error()));
+    fail_since(first_error().empty() ? "no reason given" : first_error());
+  }
+  [[noreturn]] static void fail_since(std::string_view reason)
+  {
+    throw InputError(
+        fmt::format("is a damaged or unusual TIFF ({}). Save it again, as 8-bit gray.", reason));
   }
 
  private:
@@ -174,12 +178,25 @@ GrayImage read_rgba(TIFF* file, int width, int height)
   return gray_from_samples<std::uint8_t>({bytes, 4 * raster.size()}, width, height, 4);
 }
 
-GrayImage read_page(TIFF* file, int pages)
+/// A header may say anything: before memory is taken for the pixels, whether they can be there.
+void check_room(TIFF* file, std::uint32_t width, std::uint32_t height)
+{
+  if (tag<std::uint16_t>(file, TIFFTAG_COMPRESSION) != COMPRESSION_NONE) return;
+  const std::uint64_t there = TIFFGetSizeProc(file)(TIFFClientdata(file));
+  if (TIFFScanlineSize64(file) > there / height)
+    QuietTiff::fail_since(fmt::format(
+        "{} x {} pixels that are not compressed, in a file of {} bytes", width, height, there));
+}
+
+/// `before`: the slices that were read so far, or null.
+GrayImage read_page(TIFF* file, int pages, const GrayImage* before)
 {
   check_suitable(file, pages);
   const auto width = tag<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH);
   const auto height = tag<std::uint32_t>(file, TIFFTAG_IMAGELENGTH);
   check_dimensions(width, height, pages);
+  if (before) check_next_slice(*before, width, height);
+  check_room(file, width, height);
   const bool gray16 = tag<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE) == 16 &&
                       tag<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL) == 1;
   GrayImage image = gray16 ? read_gray16(file, int(width), int(height))
@@ -196,10 +213,10 @@ GrayImage read_tiff(const std::filesystem::path& path)
   const std::unique_ptr<TIFF, Close> file(TIFFOpen(path.c_str(), "r"));
   if (!file) QuietTiff::fail();
   const int pages = TIFFNumberOfDirectories(file.get());
-  GrayImage stack = read_page(file.get(), pages);
+  GrayImage stack = read_page(file.get(), pages, nullptr);
   for (int page = 1; page < pages; ++page) {
     if (!TIFFReadDirectory(file.get())) QuietTiff::fail();
-    add_slice(stack, read_page(file.get(), pages));
+    add_slice(stack, read_page(file.get(), pages, &stack));
   }
   return stack;
 }

@@ -245,7 +245,8 @@ def all_cases():
                        ("TIFF of 7 samples", tiff(samples=7)), ("TIFF whose strip lies", tiff(strip=10**9)),
                        ("TIFF without directory", tiff(first=10**8)),
                        ("TIFF of another magic", tiff(magic=99)), ("TIFF of unknown compression", tiff(compression=4711)),
-                       ("TIFF of 4 G pixels", tiff(width=65535, height=65535)), ("TIFF's first bytes", tiff()[:6])]:
+                       ("TIFF of 4 G pixels", tiff(width=65535, height=65535)),
+                       ("TIFF of 200 M pixels", tiff(width=10000, height=20000)), ("TIFF's first bytes", tiff()[:6])]:
         add(image(f"image: {name}", data, file="wood.tif"))
     for name, data, words in [("TIFF of 3 pages in the plane", tiff(pages=3), "specimen.depth"),
                               ("TIFF whose pages go in a circle", tiff(pages=3, behind_last=408), "specimen.depth"),

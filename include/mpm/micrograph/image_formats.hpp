@@ -15,6 +15,8 @@ namespace mpm::micrograph {
 constexpr std::int64_t most_pixels = std::int64_t(1) << 28;
 /// Throws InputError unless 0 < width * height * slices <= most_pixels.
 void check_dimensions(std::int64_t width, std::int64_t height, std::int64_t slices = 1);
+/// Throws InputError unless the next slice is to have the size of those before it.
+void check_next_slice(const GrayImage& stack, std::int64_t width, std::int64_t height);
 /// Puts a slice behind those before it. Throws InputError unless they are of one size.
 void add_slice(GrayImage& stack, const GrayImage& slice);
 

@@ -260,6 +260,25 @@ TEST_F(Tiff, PagesOfTwoSizesAreRefused)
             "slice 3 has 1 x 4 pixels, those before it 2 x 2. Give all slices one size.");
 }
 
+/// What the pixels would take is not asked for first.
+TEST_F(Tiff, MorePixelsThanTheFileHoldsAreRefused)
+{
+  const auto file = directory_ / "picture.tif";
+  TIFF* tiff = TIFFOpen(file.c_str(), "w");
+  for (const auto& [name, value] :
+       {std::pair(TIFFTAG_IMAGEWIDTH, 10000), std::pair(TIFFTAG_IMAGELENGTH, 20000),
+        std::pair(TIFFTAG_BITSPERSAMPLE, 8),
+        std::pair(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK)})
+    TIFFSetField(tiff, std::uint32_t(name), value);
+  Bytes row(10000, 7);
+  TIFFWriteScanline(tiff, row.data(), 0, 0);
+  TIFFClose(tiff);
+  EXPECT_THAT(
+      message_of([&] { read_image(file); }),
+      HasSubstr(": is a damaged or unusual TIFF (10000 x 20000 pixels that are not compressed, "
+                "in a file of "));
+}
+
 TEST_F(Tiff, SlicesWithoutPagesAreRefused)
 {
   EXPECT_EQ(error_of({{.description = "ImageJ=1.53t\nimages=40\nslices=40\n"}}),
