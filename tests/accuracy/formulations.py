@@ -2,11 +2,15 @@
 
     formulations.py MPM_PAR [--quick] [--geometry NAME ...] [--smallest K] [--largest K]
                             [--real DIR] [--work DIR] [--write | --beside] [--kept]
+    formulations.py MPM_PAR --hinges [--geometry NAME ...] [--real DIR] [--work DIR] [--write]
 
 Rings are drawn anew at every level. Of a picture the geometry is that of the coarsest level: each of its
 locations becomes k x k particles at the level of k times as many cells. --real adds the micrographs of DIR, which are not shipped. --write puts what is
 kept in DIR into docs/formulations, --beside lets runs stay there that are not in DIR, --kept makes no other runs; --quick runs the coarsest level of rings
 and crops and writes nothing.
+
+--hinges runs the two coarsest levels of pictures by the total Lagrangian step with every hinge, where locations
+of wall meet at a corner alone, cut or filled.
 """
 import argparse
 import struct
@@ -15,7 +19,7 @@ from pathlib import Path
 import numpy
 
 import runs
-from loblolly import base_picture, figures
+from loblolly import base_picture, bitmap, figures
 
 WOOD = runs.PROJECT / "inputs" / "wood"
 RING = runs.PROJECT / "inputs" / "benchmarks" / "crushed_ring.yaml"
@@ -53,6 +57,55 @@ class Geometry:
         return [*(word for word in self.settings if not word.startswith("specimen")), *specimen,
                 "loading.strain=40 %", "output.snapshots=0", "output.history_lines=600",
                 f"grid.cells={[k * n for n in self.cells]}", *FORMULATIONS[formulation]]
+
+
+def around(solid, row, column):
+    """How many of a location and its eight neighbours are solid."""
+    return solid[max(row - 1, 0):row + 2, max(column - 1, 0):column + 2].sum()
+
+
+def filled(solid):
+    """`solid` without pairs of locations that meet at a corner alone, and how many locations were filled for it:
+    of the two empty ones there, one by one, that with more solid around it."""
+    solid, count = solid.copy(), 0
+    while True:
+        low_left, low_right, up_left, up_right = solid[:-1, :-1], solid[:-1, 1:], solid[1:, :-1], solid[1:, 1:]
+        rising = low_left & up_right & ~low_right & ~up_left
+        falling = ~low_left & ~up_right & low_right & up_left
+        found = numpy.argwhere(rising | falling)
+        if not len(found):
+            return solid, count
+        row, column = found[0]
+        empty = ([(row, column + 1), (row + 1, column)] if rising[row, column]
+                 else [(row, column), (row + 1, column + 1)])
+        solid[max(empty, key=lambda place: around(solid, *place))] = True
+        count += 1
+
+
+def without_hinges(picture):
+    """{"cut" or "filled": (picture beside `picture`, locations that changed)}."""
+    from PIL import Image
+    with Image.open(picture) as image:
+        solid = numpy.asarray(image)[::-1] > 127
+    (void, emptied), (wall, added) = filled(~solid), filled(solid)
+    found = {}
+    for how, walls, changed in (("cut", ~void, emptied), ("filled", wall, added)):
+        found[how] = picture.with_name(f"{picture.stem}_{how}.bmp"), changed
+        found[how][0].write_bytes(bitmap(walls))
+    return found
+
+
+def run_hinges(mpm_par, found, pictures, work):
+    """Rows of the coarsest two levels with hinges cut and filled."""
+    table = runs.CurveTable(STRAINS, figures_of)
+    for name, geometry in found.items():
+        if geometry.drawn:
+            continue
+        for how, (picture, changed) in without_hinges(pictures[name]).items():
+            for k in (1, 2):
+                table.add({"geometry": name, "hinges": how, "changed": changed, "cells": k * geometry.cells[0], "k": k},
+                          runs.run(mpm_par, geometry.scene, geometry.settings_at("total", k, picture), work))
+    return table.rows
 
 
 def crop(x):
@@ -128,6 +181,7 @@ def main():
     arguments.add_argument("--write", action="store_true")
     arguments.add_argument("--beside", action="store_true")
     arguments.add_argument("--kept", action="store_true")
+    arguments.add_argument("--hinges", action="store_true")
     given = arguments.parse_args()
     given.work.mkdir(parents=True, exist_ok=True)
     found = geometries()
@@ -139,6 +193,11 @@ def main():
         found = {name: found[name] for name in ("ring", "thin_ring", "earlywood", "latewood")}
     pictures = {name: geometry.base(given.mpm_par, given.work, name)
                 for name, geometry in found.items()}
+    if given.hinges:
+        rows = run_hinges(given.mpm_par, found, pictures, given.work)
+        if given.write:
+            runs.write_rows("hinges.csv", rows, runs.PROJECT / "docs" / "formulations")
+        return
     table = runs.CurveTable(STRAINS, figures_of)
     for name, formulation, k in planned(found, given.smallest, 1 if given.quick else given.largest):
         geometry = found[name]

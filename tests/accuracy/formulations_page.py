@@ -145,6 +145,22 @@ def equal_errors():
     return table(heads, lines)
 
 
+def hinges():
+    """Work at the two coarsest levels with hinges as they are, cut and filled."""
+    lines = []
+    for geometry in dict.fromkeys(row["geometry"] for row in read("hinges.csv")):
+        cases = {"as they are": ladder(geometry, "total")[:2]}
+        for how in ("cut", "filled"):
+            rows = [row for row in read("hinges.csv") if (row["geometry"], row["hinges"]) == (geometry, how)]
+            cases[f"{how}, {rows[0]['changed']:.0f} locations"] = rows
+        for how, (first, second) in cases.items():
+            lines.append([NAMES[geometry], how, f"{first['work'] / 1e6:.3g}", f"{second['work'] / 1e6:.3g}",
+                          f"{100 * (second['work'] / first['work'] - 1):+.3g} %",
+                          f"{100 * (second['work'] / ladder(geometry, 'total')[1]['work'] - 1):+.3g} %"])
+    return table(["geometry", "hinges", "work [MJ/m3], 75 cells", "150 cells", "change",
+                  "150 cells, from hinges as they are"], lines)
+
+
 def stopped():
     found = [f"{NAMES[row['geometry']]}, {METHODS[row['method']]}, {row['cells']:.0f} cells: "
              f"{row['status'].split(': ', 1)[-1].split(',')[0]}"
@@ -162,7 +178,8 @@ def values():
     return {"machine": f"{here['cores']} cores of an {here['processor']} processor, "
                        f"{here['memory_gib']:.0f} GiB, {here['compiler']}",
             "version": f"{here['mpm_par']} ({here['git']})",
-            "levels": levels(), "stopped": stopped(), "meeting": meeting(), "equal_errors": equal_errors()}
+            "levels": levels(), "stopped": stopped(), "hinges": hinges(),
+            "meeting": meeting(), "equal_errors": equal_errors()}
 
 
 def written():
