@@ -81,6 +81,10 @@ def limit(sizes, values):
 FACTOR, UNCONFIRMED_FACTOR, CAUTIOUS_FACTOR = 1.25, 2.0, 3.0
 PROVEN_ORDER = 1.0  # of walls and of contact, which act on whole nodes (docs/theory.md)
 FORMAL_ORDER = 2.0  # of displacements inside a body
+# h3/h1 - 1 of the levels of mpm_study --error-bar. Differences that show no order are chance, which does
+# not shrink the more the wider apart levels lie.
+NEAR = 1.25
+SCATTER_FROM = 5  # levels, which leave two beside the constant and two orders
 
 
 @dataclasses.dataclass
@@ -91,29 +95,52 @@ class Estimate:
     limit: float  # extrapolated with what the bar trusts of the order, or None
     basis: str  # gci, first order or spread
     remark: str
+    confirmed: bool = False  # four levels or more agree on the order
+
+
+def scatter(sizes, values):
+    """Standard deviation of levels about f0 + C1 h + C2 h^2, by least squares (after Eca & Hoekstra 2014);
+    0 for too few levels."""
+    if len(sizes) < SCATTER_FROM:
+        return 0.0
+    h = numpy.array(sizes) / sizes[0]
+    terms = numpy.stack([h ** 0, h, h ** 2], axis=1)
+    left = values - terms @ numpy.linalg.lstsq(terms, numpy.array(values), rcond=None)[0]
+    return float(numpy.sqrt(left @ left / (len(sizes) - 3)))
 
 
 def estimate(sizes, values):
     """The error bar of the last of at least two levels from coarse to fine: see docs/studies.md.
 
     gci: |f2 - f1|/(r^p - 1) with the observed order p, from 0.5 to 1, times 2; up to p = 2 and
-    times 1.25 where four levels or more agree on it. first order: a p above 1 that three levels
+    times 1.25 where four levels or more agree on it, less what they differ by, as an order that
+    changes may change further. first order: a p above 1 that three levels
     show may be that of two errors that cancel: 2 times their range, carried to h = 0 in first
-    order. spread: 3 times that range where they show no order.
+    order. spread: 3 times that range where they show no order. Where levels do not agree, no less than
+    twice their scatter.
     """
+    found = _estimate(sizes, values)
+    if not found.confirmed:
+        found.uncertainty = max(found.uncertainty, 2 * scatter(sizes, values))
+    return found
+
+
+def _estimate(sizes, values):
     last_sizes, last = sizes[-3:], values[-3:]
-    reach = float(numpy.ptp(last)) / (last_sizes[0] / last_sizes[-1] - 1)
+    span, apart = float(numpy.ptp(last)), last_sizes[0] / last_sizes[-1] - 1
     order = observed_order(last_sizes, last) if len(last) == 3 else None
     if order is None or order < LOWEST:
         why = "two levels give no order" if len(last) < 3 else \
             "the levels do not approach one value steadily" if order is None else \
             f"order {order:.2f} is below {LOWEST:g}"
-        return Estimate(CAUTIOUS_FACTOR * reach, order, None, "spread", why)
-    confirmed = not limit(sizes, values).warnings
-    used = min(order, FORMAL_ORDER if confirmed else PROVEN_ORDER)
+        return Estimate(CAUTIOUS_FACTOR * span / min(apart, NEAR), order, None, "spread", why)
+    ladder = limit(sizes, values)
+    used = min(order, PROVEN_ORDER)
+    if not ladder.warnings:
+        used = max(used, min(order, FORMAL_ORDER) - (max(ladder.orders) - min(ladder.orders)))
+        value = float(extrapolated(*sizes[-2:], *values[-2:], used))
+        return Estimate(FACTOR * abs(value - values[-1]), order, value, "gci", "", True)
     value = float(extrapolated(*sizes[-2:], *values[-2:], used))
-    if confirmed:
-        return Estimate(FACTOR * abs(value - values[-1]), order, value, "gci", "")
     if order > PROVEN_ORDER:
-        return Estimate(UNCONFIRMED_FACTOR * reach, order, value, "first order", "")
+        return Estimate(UNCONFIRMED_FACTOR * span / apart, order, value, "first order", "")
     return Estimate(UNCONFIRMED_FACTOR * abs(value - values[-1]), order, value, "gci", "")

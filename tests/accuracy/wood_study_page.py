@@ -4,12 +4,16 @@
                                   first takes tables and pictures out of folders of results of
                                   mpm_study inputs/studies/wood_*.yaml, which mpm_report has drawn;
                                   a later folder takes the place of an earlier one, study by study
+    wood_study_page.py --again RESULTS
+                                  first compares with what was taken: the same studies, or some of
+                                  them, made again on another machine, ranks or version
     wood_study_page.py            writes the page anew
     wood_study_page.py --check    only says whether the page is the one that would be written
 """
 import csv
 import json
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -27,6 +31,7 @@ FOLDER = runs.PROJECT / "docs" / "wood_study"
 TEXT = Path(__file__).with_name("wood_study_page.md")
 KEPT = ("study.csv", "study.json")
 MPM_CURVE = runs.PROJECT / "build" / "mpm_curve"
+AGAIN = FOLDER / "again.json"
 RISING_LINES = ("4", "8"), ("8", "16")  # times the plateau's last stress, beside the 2 and 4 of runs
 PLASTIC_WORK, AXIAL_STRESS = "plastic_work", "axial_stress"
 FRAMES = {  # strip of four: number of its first snapshot, and of the run, from 1 on
@@ -101,6 +106,53 @@ def strip(pictures, place):
     whole.quantize(128).save(place, optimize=True)
 
 
+def ended_by_settings(study):
+    """The runs that ended, by what varies in them; how many ranks they had does not count."""
+    return {tuple(pair for pair in run["settings"].items() if pair[0] != "ranks"): run
+            for run in study.record["runs"] if run["state"] == study_facts.OK}
+
+
+def compare(results):
+    """Writes what the runs of another folder have where the kept ones have a figure, too."""
+    found = []
+    for folder in study_folders(results):
+        study = read_study(FOLDER / folder.name)
+        again = read_study(folder)
+        first = ended_by_settings(study)
+        for settings, run in ended_by_settings(again).items():
+            if settings not in first:
+                sys.exit(f"{folder}: {study_facts.name_of(again, run)} is not among the runs of "
+                         f"{FOLDER / folder.name}: another variant (--quick)?")
+            figures = {}
+            for name in [f"value_{measure['name']}" for measure in study_facts.numbers(study)]:
+                if None not in (first[settings][name], run[name]):
+                    figures[name.removeprefix("value_")] = [first[settings][name], run[name]]
+            found.append({"study": study.title, "run": study_facts.name_of(again, run), "figures": figures})
+    ranks = sorted({run["settings"].get("ranks", "1") for run in again.record["runs"]})
+    AGAIN.write_text(json.dumps({"machine": again.record["machine"], "ranks": ranks, "runs": found}, indent=1) + "\n")
+
+
+def again():
+    """What was made again where, and how far each figure moved over all of these runs."""
+    record = json.loads(AGAIN.read_text())
+    named = ", ".join(f"*{title}*" for title in dict.fromkeys(run["study"] for run in record["runs"]))
+    opening = (f"Of {named} {len(record['runs'])} runs were made again, on {' and '.join(record['ranks'])} "
+               f"rank{'s' * (record['ranks'] != ['1'])} of an {record['machine']['processor']}.")
+    moved = {}
+    for run in record["runs"]:
+        for name, (first, again) in run["figures"].items():
+            moved.setdefault(name, []).append((abs(again / first - 1), again / first - 1,
+                                               f"{run['study']}: {run['run']}"))
+    lines = []
+    for name, found in moved.items():
+        sizes = [size for size, *_ in found]
+        _, most, where = max(found)
+        lines.append([name.replace("_", " "), str(len(sizes)), f"{100 * statistics.median(sizes):.2g} %",
+                      f"{sum(size > 0.01 for size in sizes)}", f"{100 * most:+.2g} %", where])
+    heads = ["figure", "runs", "half moved by less than", "by more than 1 %", "most", "which"]
+    return {"again_opening": opening, "again_runs": str(len(record["runs"])), "again": table(heads, lines)}
+
+
 def took():
     heads = ["study", "runs", "variant", "ranks", "run time"]
     lines = []
@@ -116,7 +168,7 @@ def took():
 
 def values():
     """What may stand in braces in wood_study_page.md."""
-    found = {"took": took()}
+    found = {"took": took()} | again()
     for folder in study_folders(FOLDER):
         study = read_study(folder)
         for name in TABLES:
@@ -149,8 +201,9 @@ def written():
 
 
 def main():
-    for results in [word for word in sys.argv[1:] if word != "--check"]:
-        take(results)
+    words = [word for word in sys.argv[1:] if word not in ("--check", "--again")]
+    for results in words:
+        (compare if "--again" in sys.argv else take)(results)
     write_or_check(PAGE, written())
 
 
