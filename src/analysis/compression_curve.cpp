@@ -56,15 +56,21 @@ double median(std::vector<double> values)
   return *middle;
 }
 
+/// A curve that bends has another modulus in a longer or shorter window: resamples have windows of
+/// up to that many times the length, and down to one part of so many.
+constexpr double window_range = 1.5;
+
 /// From 0.1 to 0.45 of the knee strain; the start-up transient moves the window up, not past 0.8.
 struct Window {
   double from;
   double to;
 };
-Window elastic_window(double knee, double discard)
+/// `share`: of that length.
+Window elastic_window(double knee, double discard, double share)
 {
   const double from = std::max(0.10 * knee, discard);
-  const double to = std::max(0.45 * knee, std::min(from + 0.35 * knee, 0.8 * knee));
+  const double to =
+      std::max((0.10 + 0.35 * share) * knee, std::min(from + 0.35 * share * knee, 0.8 * knee));
   return {from, to};
 }
 
@@ -219,7 +225,8 @@ std::optional<CurvePoint> most_efficient(const SampledCurve& binned, double afte
   return point;
 }
 
-CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& options)
+CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& options,
+                               double window_share)
 {
   CompressionProperties found;
   const double end = curve.strain.empty() ? 0 : curve.strain.back();
@@ -239,7 +246,7 @@ CompressionProperties read_off(const SampledCurve& curve, const CurveOptions& op
       find_soft_start(curve, fine, end, options.ringing_strain);
   const std::optional<Knee> knee = soft_start ? soft_start->knee : softening_knee(fine, 0, end);
   const Window window = elastic_window(soft_start ? soft_start->end : reach_of_line(knee, end),
-                                       options.discard_strain);
+                                       options.discard_strain, window_share);
   const std::optional<Line> elastic = fit_elastic(curve, window, options.ringing_strain);
   if (elastic && elastic->slope > 0) {
     found.modulus = elastic->slope;
@@ -331,7 +338,7 @@ CompressionProperties compression_properties(std::span<const double> strain,
                                              const CurveOptions& options)
 {
   const SampledCurve curve = loading_part(strain, stress, options.discard_strain);
-  CompressionProperties found = read_off(curve, options);
+  CompressionProperties found = read_off(curve, options, 1);
   if (!found.modulus) return found;
 
   Spread modulus;
@@ -340,7 +347,8 @@ CompressionProperties compression_properties(std::span<const double> strain,
   PointSpread energy_efficiency;
   BlockBootstrap bootstrap(curve, options.ringing_strain);
   for (int i = 0; i < options.resamples; ++i) {
-    const CompressionProperties again = read_off(bootstrap.resample(), options);
+    const double share = std::pow(window_range, (2.0 * i + 1) / options.resamples - 1);
+    const CompressionProperties again = read_off(bootstrap.resample(), options, share);
     if (again.modulus) modulus.add(*again.modulus);
     buckling.add(again.buckling);
     densification.add(again.densification);
