@@ -101,8 +101,8 @@ class Report(ProgramTest):
                             "--window", "south east=0.5mm:1mm,0:0.4mm")
         found, text = summary(folder), page.text
         for words in ("The run reached its end, 25 % strain", "modulus",
-                      f"{found['modulus'] / 1e6:.4g} MPa", "south east", "Ranks",
-                      "updated Lagrangian", found["provenance"]["git"], "Nairn",
+                      f"{found['modulus'] / 1e6:.4g} ± {found['modulus_error'] / 1e6:.2g} MPa",
+                      "south east", "Ranks", "updated Lagrangian", found["provenance"]["git"], "Nairn",
                       *found["warnings"]):
             self.assertIn(" ".join(words.split()), text)
         self.assertIn(f"{100 * found['compression']['buckling']['strain']:.4g} %", text)

@@ -96,9 +96,9 @@ def properties(run, bars):
         rows.append(("plateau stress", _with_error(plateau.value, plateau.error, 1e-6) + " MPa",
                      "mean of the study"))
     note = ("± is the numerical error that mpm_study --error-bar estimates." if bars else
-            "± is two standard deviations of reading the curve, where there is noise; the "
-            "numerical error is another matter: mpm_study --error-bar, then mpm_report "
-            "--error-bar.")
+            "± is two standard deviations of reading the curve: of its noise, and of where its first "
+            "line is drawn; the numerical error is another matter: mpm_study --error-bar, then "
+            "mpm_report --error-bar.")
     return rows, f"{note} {found.get('remark', '')}".strip()
 
 
