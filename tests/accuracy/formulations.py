@@ -2,7 +2,7 @@
 
     formulations.py MPM_PAR [--quick] [--geometry NAME ...] [--smallest K] [--largest K]
                             [--real DIR] [--work DIR] [--write | --beside] [--kept]
-    formulations.py MPM_PAR --hinges [--geometry NAME ...] [--real DIR] [--work DIR] [--write]
+    formulations.py MPM_PAR --hinges | --anew [--geometry NAME ...] [--largest K] [--real DIR] [--work DIR] [--write]
 
 Rings are drawn anew at every level. Of a picture the geometry is that of the coarsest level: each of its
 locations becomes k x k particles at the level of k times as many cells. --real adds the micrographs of DIR, which are not shipped. --write puts what is
@@ -10,7 +10,7 @@ kept in DIR into docs/formulations, --beside lets runs stay there that are not i
 and crops and writes nothing.
 
 --hinges runs the two coarsest levels of pictures by the total Lagrangian step with every hinge, where locations
-of wall meet at a corner alone, cut or filled.
+of wall meet at a corner alone, cut or filled. --anew runs all levels of pictures by it, sampled anew at each.
 """
 import argparse
 import struct
@@ -48,9 +48,10 @@ class Geometry:
     def location_area(self, k):
         return self.size[0] / (2 * k * self.cells[0]) * self.size[1] / (2 * k * self.cells[1])  # m2
 
-    def settings_at(self, formulation, k, picture):
+    def settings_at(self, formulation, k, picture=None):
+        """With `picture` for the geometry, else the scene's own, sampled anew."""
         specimen = [word for word in self.settings if word.startswith("specimen")]
-        if not self.drawn:
+        if picture and not self.drawn:
             lengths = ", ".join(f"{1e6 * length:.8g} um" for length in self.size)
             specimen = [f"specimen={{micrograph: {picture}, image_size: [{lengths}], threshold: 128, "
                         "sampling: threshold}"]
@@ -105,6 +106,16 @@ def run_hinges(mpm_par, found, pictures, work):
             for k in (1, 2):
                 table.add({"geometry": name, "hinges": how, "changed": changed, "cells": k * geometry.cells[0], "k": k},
                           runs.run(mpm_par, geometry.scene, geometry.settings_at("total", k, picture), work))
+    return table.rows
+
+
+def run_anew(mpm_par, found, largest, work):
+    """Rows of all levels of the pictures themselves."""
+    table = runs.CurveTable(STRAINS, figures_of)
+    for name, geometry in found.items():
+        for k in [] if geometry.drawn else [k for k in geometry.levels["total"] if k <= largest]:
+            table.add({"geometry": name, "cells": k * geometry.cells[0], "k": k},
+                      runs.run(mpm_par, geometry.scene, geometry.settings_at("total", k), work))
     return table.rows
 
 
@@ -168,6 +179,11 @@ def figures_of(folder, strains):
     return found, curve
 
 
+def keep(name, rows, write):
+    if write:
+        runs.write_rows(f"{name}.csv", rows, runs.PROJECT / "docs" / "formulations")
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__,
                                         formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -182,6 +198,7 @@ def main():
     arguments.add_argument("--beside", action="store_true")
     arguments.add_argument("--kept", action="store_true")
     arguments.add_argument("--hinges", action="store_true")
+    arguments.add_argument("--anew", action="store_true")
     given = arguments.parse_args()
     given.work.mkdir(parents=True, exist_ok=True)
     found = geometries()
@@ -191,12 +208,13 @@ def main():
         found = {name: found[name] for name in given.geometry}
     elif given.quick:
         found = {name: found[name] for name in ("ring", "thin_ring", "earlywood", "latewood")}
+    if given.anew:
+        keep("anew", run_anew(given.mpm_par, found, given.largest, given.work), given.write)
+        return
     pictures = {name: geometry.base(given.mpm_par, given.work, name)
                 for name, geometry in found.items()}
     if given.hinges:
-        rows = run_hinges(given.mpm_par, found, pictures, given.work)
-        if given.write:
-            runs.write_rows("hinges.csv", rows, runs.PROJECT / "docs" / "formulations")
+        keep("hinges", run_hinges(given.mpm_par, found, pictures, given.work), given.write)
         return
     table = runs.CurveTable(STRAINS, figures_of)
     for name, formulation, k in planned(found, given.smallest, 1 if given.quick else given.largest):

@@ -161,6 +161,20 @@ def hinges():
                   "150 cells, from hinges as they are"], lines)
 
 
+def anew():
+    """Work of pictures that are sampled anew at every level, beside that of one geometry."""
+    lines = []
+    for geometry in dict.fromkeys(row["geometry"] for row in read("anew.csv")):
+        own = [row for row in read("anew.csv") if row["geometry"] == geometry]
+        for words, found in (("of 75 cells", ladder(geometry, "total")[:len(own)]), ("sampled anew", own)):
+            works = [row["work"] for row in found]
+            steps = [f"{100 * (fine / coarse - 1):+.2g} %" for coarse, fine in zip(works, works[1:])]
+            blank = ["-"] * (3 - len(works))
+            lines.append([NAMES[geometry], words, *(f"{work / 1e6:.3g}" for work in works), *blank, *steps, *blank])
+    return table(["geometry", "picture", "work [MJ/m3], 75 cells", "150 cells", "300 cells", "75 to 150", "150 to 300"],
+                 lines)
+
+
 def stopped():
     found = [f"{NAMES[row['geometry']]}, {METHODS[row['method']]}, {row['cells']:.0f} cells: "
              f"{row['status'].split(': ', 1)[-1].split(',')[0]}"
@@ -178,7 +192,7 @@ def values():
     return {"machine": f"{here['cores']} cores of an {here['processor']} processor, "
                        f"{here['memory_gib']:.0f} GiB, {here['compiler']}",
             "version": f"{here['mpm_par']} ({here['git']})",
-            "levels": levels(), "stopped": stopped(), "hinges": hinges(),
+            "levels": levels(), "stopped": stopped(), "hinges": hinges(), "anew": anew(),
             "meeting": meeting(), "equal_errors": equal_errors()}
 
 

@@ -100,12 +100,14 @@ class Report(ProgramTest):
         page = self.page_of(folder, "--at", "9%", "17%", "--window", "west=0:0.5mm",
                             "--window", "south east=0.5mm:1mm,0:0.4mm")
         found, text = summary(folder), page.text
+        curve = found["compression"]
         for words in ("The run reached its end, 25 % strain", "modulus",
-                      f"{found['modulus'] / 1e6:.4g} ± {found['modulus_error'] / 1e6:.2g} MPa",
+                      f"{curve['modulus'] / 1e6:.4g} ± {curve['modulus_error'] / 1e6:.2g} MPa",
                       "south east", "Ranks", "updated Lagrangian", found["provenance"]["git"], "Nairn",
                       *found["warnings"]):
             self.assertIn(" ".join(words.split()), text)
-        self.assertIn(f"{100 * found['compression']['buckling']['strain']:.4g} %", text)
+        onset = curve["buckling"]
+        self.assertIn(f"{100 * onset['strain']:.4g} ± {100 * onset['strain_error']:.2g} %", text)
         files = {path.name for path in (folder / "report").iterdir()}
         self.assertEqual(files, {
             "curve.svg", "curve.png", "energies.svg", "energies.png", "energy_error.svg",
