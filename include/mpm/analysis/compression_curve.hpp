@@ -24,9 +24,9 @@ struct Toe {
 
 struct CompressionProperties {
   std::optional<double> modulus;  ///< Pa, slope of the linear part; line not forced through 0
-  double modulus_error = 0;
-  double elastic_intercept = 0;  ///< Pa, of that line at zero strain
-  std::optional<Toe> toe;        ///< of a curve that has one; strains of the onsets hold it
+  double modulus_error = 0;       ///< as of points; resamples differ in the window of the line, too
+  double elastic_intercept = 0;   ///< Pa, of that line at zero strain
+  std::optional<Toe> toe;         ///< of a curve that has one; strains of the onsets hold it
   std::optional<CurvePoint> buckling;
   std::optional<CurvePoint> densification;
   std::optional<double> plateau_slope;          ///< Pa, of the line through both onsets
