@@ -185,8 +185,8 @@ std::string plan_text(const Preparation<Dim>& preparation, const StepMeasurement
     line("contact",
          fmt::format("{:.0f} cells may meet others: those near a surface", plan.contact_cells));
   if (plan.hinges > 0) {
-    line("hinges", fmt::format("{:.0f} {} at which walls hang together by a corner alone",
-                               plan.hinges, plan.hinges == 1 ? "node" : "nodes"));
+    line("hinges", fmt::format("{:.0f} node{} at which walls hang together by a corner alone",
+                               plan.hinges, plan.hinges == 1 ? "" : "s"));
     line("", "and turn freely: finer cells leave fewer of them");
   }
   line("last sound state", fmt::format("{} more at most, kept every {} steps for",

@@ -95,7 +95,6 @@ class Estimate:
     limit: float  # extrapolated with what the bar trusts of the order, or None
     basis: str  # gci, first order or spread
     remark: str
-    confirmed: bool = False  # four levels or more agree on the order
 
 
 def scatter(sizes, values):
@@ -119,28 +118,23 @@ def estimate(sizes, values):
     order. spread: 3 times that range where they show no order. Where levels do not agree, no less than
     twice their scatter.
     """
-    found = _estimate(sizes, values)
-    if not found.confirmed:
-        found.uncertainty = max(found.uncertainty, 2 * scatter(sizes, values))
-    return found
-
-
-def _estimate(sizes, values):
     last_sizes, last = sizes[-3:], values[-3:]
     span, apart = float(numpy.ptp(last)), last_sizes[0] / last_sizes[-1] - 1
+    least = 2 * scatter(sizes, values)
     order = observed_order(last_sizes, last) if len(last) == 3 else None
     if order is None or order < LOWEST:
         why = "two levels give no order" if len(last) < 3 else \
             "the levels do not approach one value steadily" if order is None else \
             f"order {order:.2f} is below {LOWEST:g}"
-        return Estimate(CAUTIOUS_FACTOR * span / min(apart, NEAR), order, None, "spread", why)
+        return Estimate(max(CAUTIOUS_FACTOR * span / min(apart, NEAR), least), order, None, "spread", why)
     ladder = limit(sizes, values)
+    confirmed = not ladder.warnings
     used = min(order, PROVEN_ORDER)
-    if not ladder.warnings:
-        used = max(used, min(order, FORMAL_ORDER) - (max(ladder.orders) - min(ladder.orders)))
-        value = float(extrapolated(*sizes[-2:], *values[-2:], used))
-        return Estimate(FACTOR * abs(value - values[-1]), order, value, "gci", "", True)
+    if confirmed:
+        used = max(used, min(order, FORMAL_ORDER) - float(numpy.ptp(ladder.orders)))
     value = float(extrapolated(*sizes[-2:], *values[-2:], used))
+    if confirmed:
+        return Estimate(FACTOR * abs(value - values[-1]), order, value, "gci", "")
     if order > PROVEN_ORDER:
-        return Estimate(UNCONFIRMED_FACTOR * span / apart, order, value, "first order", "")
-    return Estimate(UNCONFIRMED_FACTOR * abs(value - values[-1]), order, value, "gci", "")
+        return Estimate(max(UNCONFIRMED_FACTOR * span / apart, least), order, value, "first order", "")
+    return Estimate(max(UNCONFIRMED_FACTOR * abs(value - values[-1]), least), order, value, "gci", "")

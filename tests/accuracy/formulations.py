@@ -21,6 +21,7 @@ import numpy
 import runs
 from loblolly import base_picture, bitmap, figures
 
+PAGES = runs.PROJECT / "docs" / "formulations"
 WOOD = runs.PROJECT / "inputs" / "wood"
 RING = runs.PROJECT / "inputs" / "benchmarks" / "crushed_ring.yaml"
 LOBLOLLY = WOOD / "loblolly_radial.yaml"
@@ -96,13 +97,13 @@ def without_hinges(picture):
     return found
 
 
-def run_hinges(mpm_par, found, pictures, work):
+def run_hinges(mpm_par, found, work):
     """Rows of the coarsest two levels with hinges cut and filled."""
     table = runs.CurveTable(STRAINS, figures_of)
     for name, geometry in found.items():
         if geometry.drawn:
             continue
-        for how, (picture, changed) in without_hinges(pictures[name]).items():
+        for how, (picture, changed) in without_hinges(geometry.base(mpm_par, work, name)).items():
             for k in (1, 2):
                 table.add({"geometry": name, "hinges": how, "changed": changed, "cells": k * geometry.cells[0], "k": k},
                           runs.run(mpm_par, geometry.scene, geometry.settings_at("total", k, picture), work))
@@ -179,16 +180,13 @@ def figures_of(folder, strains):
     return found, curve
 
 
-def keep(name, rows, write):
-    if write:
-        runs.write_rows(f"{name}.csv", rows, runs.PROJECT / "docs" / "formulations")
-
-
 def main():
     arguments = argparse.ArgumentParser(description=__doc__,
                                         formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("mpm_par", type=Path)
-    arguments.add_argument("--quick", action="store_true")
+    kinds = arguments.add_mutually_exclusive_group()
+    for kind in ("--quick", "--hinges", "--anew"):
+        kinds.add_argument(kind, action="store_true")
     arguments.add_argument("--geometry", nargs="+")
     arguments.add_argument("--smallest", type=int, default=1)
     arguments.add_argument("--largest", type=int, default=16)
@@ -197,8 +195,6 @@ def main():
     arguments.add_argument("--write", action="store_true")
     arguments.add_argument("--beside", action="store_true")
     arguments.add_argument("--kept", action="store_true")
-    arguments.add_argument("--hinges", action="store_true")
-    arguments.add_argument("--anew", action="store_true")
     given = arguments.parse_args()
     given.work.mkdir(parents=True, exist_ok=True)
     found = geometries()
@@ -208,14 +204,14 @@ def main():
         found = {name: found[name] for name in given.geometry}
     elif given.quick:
         found = {name: found[name] for name in ("ring", "thin_ring", "earlywood", "latewood")}
-    if given.anew:
-        keep("anew", run_anew(given.mpm_par, found, given.largest, given.work), given.write)
+    if given.hinges or given.anew:
+        name, rows = (("hinges", run_hinges(given.mpm_par, found, given.work)) if given.hinges else
+                      ("anew", run_anew(given.mpm_par, found, given.largest, given.work)))
+        if given.write:
+            runs.write_rows(f"{name}.csv", rows, PAGES)
         return
     pictures = {name: geometry.base(given.mpm_par, given.work, name)
                 for name, geometry in found.items()}
-    if given.hinges:
-        keep("hinges", run_hinges(given.mpm_par, found, pictures, given.work), given.write)
-        return
     table = runs.CurveTable(STRAINS, figures_of)
     for name, formulation, k in planned(found, given.smallest, 1 if given.quick else given.largest):
         geometry = found[name]
@@ -228,9 +224,9 @@ def main():
     if given.quick:
         return
     if given.write:
-        table.write("ladders", runs.PROJECT / "docs" / "formulations")
+        table.write("ladders", PAGES)
     elif given.beside:
-        table.write_beside("ladders", runs.PROJECT / "docs" / "formulations")
+        table.write_beside("ladders", PAGES)
 
 
 if __name__ == "__main__":

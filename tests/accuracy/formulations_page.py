@@ -28,8 +28,8 @@ NAMES = {"ring": "ring, wall of a tenth of its diameter", "thin_ring": "ring, ha
 read = functools.cache(lambda name: runs.read_rows(name, FOLDER))
 
 
-def geometries():
-    return list(dict.fromkeys(row["geometry"] for row in read("ladders.csv")))
+def geometries(file="ladders.csv"):
+    return list(dict.fromkeys(row["geometry"] for row in read(file)))
 
 
 def ladder(geometry, method):
@@ -148,15 +148,16 @@ def equal_errors():
 def hinges():
     """Work at the two coarsest levels with hinges as they are, cut and filled."""
     lines = []
-    for geometry in dict.fromkeys(row["geometry"] for row in read("hinges.csv")):
-        cases = {"as they are": ladder(geometry, "total")[:2]}
+    for geometry in geometries("hinges.csv"):
+        kept = ladder(geometry, "total")[:2]
+        cases = {"as they are": kept}
         for how in ("cut", "filled"):
             rows = [row for row in read("hinges.csv") if (row["geometry"], row["hinges"]) == (geometry, how)]
             cases[f"{how}, {rows[0]['changed']:.0f} locations"] = rows
         for how, (first, second) in cases.items():
             lines.append([NAMES[geometry], how, f"{first['work'] / 1e6:.3g}", f"{second['work'] / 1e6:.3g}",
                           f"{100 * (second['work'] / first['work'] - 1):+.3g} %",
-                          f"{100 * (second['work'] / ladder(geometry, 'total')[1]['work'] - 1):+.3g} %"])
+                          f"{100 * (second['work'] / kept[1]['work'] - 1):+.3g} %"])
     return table(["geometry", "hinges", "work [MJ/m3], 75 cells", "150 cells", "change",
                   "150 cells, from hinges as they are"], lines)
 
@@ -164,7 +165,7 @@ def hinges():
 def anew():
     """Work of pictures that are sampled anew at every level, beside that of one geometry."""
     lines = []
-    for geometry in dict.fromkeys(row["geometry"] for row in read("anew.csv")):
+    for geometry in geometries("anew.csv"):
         own = [row for row in read("anew.csv") if row["geometry"] == geometry]
         for words, found in (("of 75 cells", ladder(geometry, "total")[:len(own)]), ("sampled anew", own)):
             works = [row["work"] for row in found]

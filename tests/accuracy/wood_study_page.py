@@ -114,22 +114,25 @@ def ended_by_settings(study):
 
 def compare(results):
     """Writes what the runs of another folder have where the kept ones have a figure, too."""
-    found = []
-    for folder in study_folders(results):
-        study = read_study(FOLDER / folder.name)
-        again = read_study(folder)
+    found, ranks = [], set()
+    folders = study_folders(results)
+    if not folders:
+        sys.exit(f"{results}: holds no study. Name the folder that mpm_study has written.")
+    for folder in folders:
+        study, repeated = read_study(FOLDER / folder.name), read_study(folder)
         first = ended_by_settings(study)
-        for settings, run in ended_by_settings(again).items():
+        for settings, run in ended_by_settings(repeated).items():
             if settings not in first:
-                sys.exit(f"{folder}: {study_facts.name_of(again, run)} is not among the runs of "
+                sys.exit(f"{folder}: {study_facts.name_of(repeated, run)} is not among the runs of "
                          f"{FOLDER / folder.name}: another variant (--quick)?")
             figures = {}
             for name in [f"value_{measure['name']}" for measure in study_facts.numbers(study)]:
                 if None not in (first[settings][name], run[name]):
                     figures[name.removeprefix("value_")] = [first[settings][name], run[name]]
-            found.append({"study": study.title, "run": study_facts.name_of(again, run), "figures": figures})
-    ranks = sorted({run["settings"].get("ranks", "1") for run in again.record["runs"]})
-    AGAIN.write_text(json.dumps({"machine": again.record["machine"], "ranks": ranks, "runs": found}, indent=1) + "\n")
+            found.append({"study": study.title, "run": study_facts.name_of(repeated, run), "figures": figures})
+            ranks.add(run["settings"].get("ranks", "1"))
+    record = {"machine": repeated.record["machine"], "ranks": sorted(ranks), "runs": found}
+    AGAIN.write_text(json.dumps(record, indent=1) + "\n")
 
 
 def again():
@@ -140,9 +143,9 @@ def again():
                f"rank{'s' * (record['ranks'] != ['1'])} of an {record['machine']['processor']}.")
     moved = {}
     for run in record["runs"]:
-        for name, (first, again) in run["figures"].items():
-            moved.setdefault(name, []).append((abs(again / first - 1), again / first - 1,
-                                               f"{run['study']}: {run['run']}"))
+        for name, (first, repeated) in run["figures"].items():
+            way = repeated / first - 1
+            moved.setdefault(name, []).append((abs(way), way, f"{run['study']}: {run['run']}"))
     lines = []
     for name, found in moved.items():
         sizes = [size for size, *_ in found]

@@ -59,8 +59,9 @@ TEST_P(DisturbedWood, StatedErrorCoversTheModulusAndIsNotIdle)
   const CompressionProperties found = read(noisy(sample(wood, 0.6, 12000), share));
   const double rounded_corner = 0.03 * synthetic::modulus;
   EXPECT_LT(std::abs(*found.modulus - synthetic::modulus), found.modulus_error + rounded_corner);
-  // The rounded corner bends the curve within the window, which is part of the stated error.
-  EXPECT_LT(found.modulus_error, 3 * share * synthetic::modulus + rounded_corner);
+  // Without noise the rounded corner is left, which bends the curve within the window.
+  EXPECT_LT(found.modulus_error,
+            std::max(3 * share * synthetic::modulus + 5e6, 0.02 * synthetic::modulus));
 }
 
 TEST_P(DisturbedWood, OnsetBehindASoftStartIsThatOfTheSteepLine)
