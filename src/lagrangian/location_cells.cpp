@@ -156,13 +156,12 @@ template <int Dim>
                                                   Chunk& chunk, int k) const
 {
   double* motion = cells.motion().block(block);
-  const Lanes volume = load(cells.state().block(block));
   const CellDeformation<Dim> now(corners(nodes, block), frame_);
   double* f = motion + deformation_ * lane_count;
   now.put_gradient(f, rate, chunk.gradient_of(k));
   for (int j = 0; j < Dim * Dim; ++j) store(now.f[j], f + j * lane_count);
   now.keep(chunk.kept_of(k));
-  bending_.put_trial(now.bending, rest_of(motion), volume, chunk.bending_of(k));
+  bending_.put_trial(now, rest_of(motion), chunk.bending_of(k));
   chunk.narrow[k] =
       stdx::any_of(now.narrowest_corner(frame_) < column(least_corners_.data(), block));
   return now.jacobian();

@@ -1,4 +1,5 @@
 #include <mpm/core/lanes.hpp>
+#include <mpm/materials/bent_flow.hpp>
 #include <mpm/materials/hencky.hpp>
 #include <mpm/materials/logarithmic_wave.hpp>
 #include <mpm/materials/plane_left_cauchy_green.hpp>
@@ -37,7 +38,8 @@ class Hencky final : public Law<2> {
         mu_(elastic.shear_modulus()),
         bulk_(elastic.bulk_modulus()),
         lambda_(bulk_ - 2.0 / 3.0 * mu_),
-        flow_(RadialFlow::of_strain(mu_, yield))
+        flow_(RadialFlow::of_strain(mu_, yield)),
+        bent_flow_(Plane, elastic, yield)
   {
   }
 
@@ -80,11 +82,8 @@ class Hencky final : public Law<2> {
     else
       for (int k = 0; k < blocks; ++k) {
         double* s = state + k * columns * lane_count;
-        double* b = bending + k * 2 * lane_count;
         Strain e = trial_strain(s, gradient + k * 4 * lane_count, dt);
-        BentFlow bent{load(b), load(b + lane_count)};
-        return_to_yield(s, e, bent);
-        store(bent.scale, b);
+        return_bent(s, e, bending + k * bending_columns<2> * lane_count);
         put_force_stress(s, e, force_stress + k * 3 * lane_count);
       }
   }
@@ -168,14 +167,19 @@ class Hencky final : public Law<2> {
 
   static Lanes at(const double* s, int column) { return load(s + column * lane_count); }
 
-  Strain complete(const double* s, const PlaneStrain& plane) const
+  /// `zz`: where it is a state of its own.
+  Strain complete(const PlaneStrain& plane, const Lanes& zz) const
   {
     if constexpr (carries_zz)
-      return {plane, at(s, log_zz)};
+      return {plane, zz};
     else if constexpr (plane_strain)
       return {plane, 0.0};
     else
       return {plane, zz_over_sum() * plane.sum};
+  }
+  Strain complete(const double* s, const PlaneStrain& plane) const
+  {
+    return complete(plane, carries_zz ? at(s, log_zz) : Lanes(0.0));
   }
 
   Strain elastic_strain(const double* s) const
@@ -206,13 +210,45 @@ class Hencky final : public Law<2> {
     store(v0 * tau.xy, out + 2 * lane_count);
   }
 
-  template <class... Bent>
-  void return_to_yield(double* s, Strain& e, Bent&... bent) const
+  void return_to_yield(double* s, Strain& e) const
   {
     if constexpr (plane_strain)
-      return_radially(s, e, bent...);
+      return_radially(s, e);
     else
-      return_in_plane_stress(s, e, bent...);
+      return_in_plane_stress(s, e);
+  }
+
+  /// `bending`: as in bending.hpp.
+  void return_bent(double* s, Strain& e, double* bending) const
+  {
+    const FibreDirection fibres(bending);
+    const double of_difference = std::sqrt(3.0) * mu_;
+    const double of_mean =
+        plane_strain ? 6 * mu_ : elastic_.youngs_modulus / (2 * (1 - elastic_.poisson_ratio));
+    const auto& [sum, xx, xy, squared] = e.plane;
+    BentStress t{of_mean * (plane_strain ? e.mean_deviator() : sum),
+                 of_difference * (fibres.cosine * xx + fibres.sine * xy),
+                 of_difference * (fibres.cosine * xy - fibres.sine * xx),
+                 bent_flow_.bending(bending)};
+    const Lanes before = t.bending;
+    const BentReturn flow = bent_flow_(t, at(s, plastic_strain));
+    BentFlow::take(before, t.bending, bending);
+    if (!flow.any) return;
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
+    const Lanes mean = t.mean / of_mean, along = t.along / of_difference,
+                shear = t.shear / of_difference, third = e.trace() * (1.0 / 3.0);
+    const Strain flowed = complete(
+        {plane_strain ? 2.0 * (third + mean) : mean, fibres.cosine * along - fibres.sine * shear,
+         fibres.sine * along + fibres.cosine * shear, along * along + shear * shear},
+        third - 2.0 * mean);
+    put_where(flow.yields, PlaneTensor(flowed.plane), s);
+    if constexpr (carries_zz)
+      store(select(flow.yields, flowed.zz, at(s, log_zz)), s + log_zz * lane_count);
+    e = {{select(flow.yields, flowed.plane.sum, sum),
+          select(flow.yields, flowed.plane.difference_xx, xx),
+          select(flow.yields, flowed.plane.difference_xy, xy),
+          select(flow.yields, flowed.plane.difference_squared, squared)},
+         select(flow.yields, flowed.zz, e.zz)};
   }
 
   void return_radially(double* s, Strain& e) const
@@ -221,20 +257,6 @@ class Hencky final : public Law<2> {
     const RadialReturn flow = flow_(squared, at(s, plastic_strain));
     if (!flow.any) return;
     record_flow(s, flow_columns, yield_, flow.plastic_strain);
-    scale_deviator(s, e, flow);
-  }
-  /// Fibres of a bent cell are held along z: their plastic moment is 2 / sqrt(3) times that of
-  /// uniaxial stress. Deviator and moments shrink alike.
-  void return_radially(double* s, Strain& e, BentFlow& bent) const
-  {
-    const Lanes squared = deviator_squared(e);
-    const Lanes together = squared + 0.75 / (4 * mu_ * mu_) * bent.squared;
-    const RadialReturn flow = flow_(together, at(s, plastic_strain));
-    if (!flow.any) return;
-    bent.scale = flow.scale;
-    record_flow(s, flow_columns, yield_, flow.plastic_strain,
-                squared / select(flow.yields, together, 1.0),
-                (1.0 - bent.scale * bent.scale) * bent.energy);
     scale_deviator(s, e, flow);
   }
   /// (q / 2 mu)^2
@@ -255,20 +277,13 @@ class Hencky final : public Law<2> {
 
   void return_in_plane_stress(double* s, Strain& e) const
   {
-    BentFlow straight;
-    return_in_plane_stress(s, e, straight);
-  }
-  void return_in_plane_stress(double* s, Strain& e, BentFlow& bent) const
-  {
     const double sum_modulus = elastic_.youngs_modulus / (1 - elastic_.poisson_ratio);
     const Lanes sum = sum_modulus * e.plane.sum,
                 difference_squared = 4 * mu_ * mu_ * e.plane.difference_squared;
     const PlaneStressReturn flow = return_to_yield_plane_stress(
-        sum, difference_squared, at(s, plastic_strain), elastic_, yield_, bent.squared);
+        sum, difference_squared, at(s, plastic_strain), elastic_, yield_);
     if (!flow.any) return;
-    bent.scale = flow.bending_scale;
-    record_flow(s, flow_columns, yield_, flow.plastic_strain, flow.share_of_centre,
-                (1.0 - bent.scale * bent.scale) * bent.energy);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
     // Elastic strains are proportional to the stresses in sum and difference.
     scale_strain(e, flow.sum_scale * e.plane.sum, flow.difference_scale);
     e.zz = zz_over_sum() * e.plane.sum;
@@ -294,6 +309,7 @@ class Hencky final : public Law<2> {
   YieldConstants yield_;
   double mu_, bulk_, lambda_;
   RadialFlow flow_;
+  BentFlow bent_flow_;
 };
 
 template <PlaneAssumption Plane>

@@ -59,13 +59,10 @@ class HenckySolid final : public Law<3> {
     if constexpr (!Plastic)
       Law<3>::update_bent(state, blocks, gradient, dt, force_stress, bending);
     else
-      for (int k = 0; k < blocks; ++k) {
-        double* b = bending + k * bending_columns<3> * lane_count;
-        BrickBending bent(b);
+      for (int k = 0; k < blocks; ++k)
         update_block(state + k * columns * lane_count, gradient + k * 9 * lane_count, dt,
-                     force_stress + k * 6 * lane_count, bent);
-        bent.store_shares(b);
-      }
+                     force_stress + k * 6 * lane_count,
+                     bending + k * bending_columns<3> * lane_count);
   }
 
   void force_stress(const double* state, int blocks, double* force_stress) const override
@@ -127,7 +124,7 @@ class HenckySolid final : public Law<3> {
   }
 
   template <class... Bent>
-  void update_block(double* s, const double* l, double dt, double* out, Bent&... bent) const
+  void update_block(double* s, const double* l, double dt, double* out, Bent... bending) const
   {
     Tensor f;  // I + dt L; b_e = f b_e f^T
     for (int i = 0; i < 3; ++i)
@@ -135,38 +132,37 @@ class HenckySolid final : public Law<3> {
         f.a[i][j] = double(i == j) + dt * load(l + (i + 3 * j) * lane_count);
     Symmetric b = elastic_left_cauchy_green(s).turned(f);
     LogarithmicStrain e(b);
-    if constexpr (Plastic) return_radially(s, e, b, bent...);
+    if constexpr (Plastic) return_to_yield(s, e, b, bending...);
     store_scaled(b, 1.0, s + be * lane_count);
     store_scaled(kirchhoff(e), at(s, volume), out);
   }
 
-  void return_radially(double* s, LogarithmicStrain& e, Symmetric& b) const
+  void return_to_yield(double* s, LogarithmicStrain& e, Symmetric& b) const
   {
     const RadialReturn flow = flow_(squared(e), at(s, plastic_strain));
     if (!flow.any) return;
-    scale_deviator(flow, e, b);
+    put_deviator(flow.yields, flow.scale * e.deviator, e, b);
     record_flow(s, flow_columns, yield_, flow.plastic_strain);
   }
-  void return_radially(double* s, LogarithmicStrain& e, Symmetric& b, BrickBending& bent) const
+  /// `bending`: as in bending.hpp.
+  void return_to_yield(double* s, LogarithmicStrain& e, Symmetric& b, double* bending) const
   {
-    const BrickReturn flow = bent_flow_(4 * mu_ * mu_ * squared(e), bent, at(s, plastic_strain));
+    Symmetric deviator = Lanes(2 * mu_) * e.deviator;
+    const BentReturn flow = bent_flow_(deviator, bending, at(s, plastic_strain));
     if (!flow.any) return;
-    scale_deviator(flow, e, b);
-    record_flow(s, flow_columns, yield_, flow.plastic_strain, flow.share_of_centre, bent.work());
+    put_deviator(flow.yields, Lanes(1 / (2 * mu_)) * deviator, e, b);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
   }
   /// (q / 2 mu)^2
   static Lanes squared(const LogarithmicStrain& e) { return 1.5 * e.deviator.squared(); }
   /// Of the logarithmic strain; the trace stays. Lanes that do not flow keep their b_e to the last
   /// bit.
-  static void scale_deviator(const RadialReturn& flow, LogarithmicStrain& e, Symmetric& b)
+  static void put_deviator(const LaneMask& yields, const Symmetric& deviator, LogarithmicStrain& e,
+                           Symmetric& b)
   {
-    const Symmetric d = e.deviator;
-    const auto scaled = [&](const Lanes& by) {
-      return Symmetric{by * d.xx, by * d.yy, by * d.zz, by * d.xy, by * d.yz, by * d.xz};
-    };
-    e.deviator = scaled(flow.scale);
-    put_where(flow.yields,
-              exponential_of_deviator(scaled(2.0 * flow.scale), lane_exp(2.0 / 3.0 * e.trace)), b);
+    e.deviator = deviator;
+    put_where(yields, exponential_of_deviator(Lanes(2.0) * deviator, lane_exp(2.0 / 3.0 * e.trace)),
+              b);
   }
 
   BendingModuli<3> bending_;

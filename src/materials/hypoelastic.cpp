@@ -1,4 +1,5 @@
 #include <mpm/core/lanes.hpp>
+#include <mpm/materials/bent_flow.hpp>
 #include <mpm/materials/hypoelastic.hpp>
 #include <mpm/materials/logarithmic_wave.hpp>
 #include <mpm/materials/plane_stress_return.hpp>
@@ -62,7 +63,8 @@ class Hypoelastic final : public Law<2> {
         yield_(yield),
         density_(density),
         wave_speed_(std::sqrt(stiffness.wave_modulus() / density)),
-        flow_(RadialFlow::of_stress(elastic.shear_modulus(), yield))
+        flow_(RadialFlow::of_stress(elastic.shear_modulus(), yield)),
+        bent_flow_(Plane, elastic, yield)
   {
   }
 
@@ -89,9 +91,8 @@ class Hypoelastic final : public Law<2> {
               double* force_stress) const override
   {
     for (int k = 0; k < blocks; ++k) {
-      BentFlow straight;
       update_block(state + k * columns * lane_count, gradient + k * 4 * lane_count, dt,
-                   force_stress + k * 3 * lane_count, straight);
+                   force_stress + k * 3 * lane_count);
     }
   }
 
@@ -102,13 +103,13 @@ class Hypoelastic final : public Law<2> {
   void update_bent(double* state, int blocks, const double* gradient, double dt,
                    double* force_stress, double* bending) const override
   {
-    for (int k = 0; k < blocks; ++k) {
-      double* b = bending + k * 2 * lane_count;
-      BentFlow bent{load(b), load(b + lane_count)};
-      update_block(state + k * columns * lane_count, gradient + k * 4 * lane_count, dt,
-                   force_stress + k * 3 * lane_count, bent);
-      store(bent.scale, b);
-    }
+    if constexpr (!Plastic)
+      Law<2>::update_bent(state, blocks, gradient, dt, force_stress, bending);
+    else
+      for (int k = 0; k < blocks; ++k)
+        update_block(state + k * columns * lane_count, gradient + k * 4 * lane_count, dt,
+                     force_stress + k * 3 * lane_count,
+                     bending + k * bending_columns<2> * lane_count);
   }
 
   void force_stress(const double* state, int blocks, double* force_stress) const override
@@ -182,7 +183,9 @@ class Hypoelastic final : public Law<2> {
     store(v0 * tau.xy, out + 2 * lane_count);
   }
 
-  void update_block(double* s, const double* l, double dt, double* out, BentFlow& bent) const
+  /// `bending`: as in bending.hpp, of cells that bend.
+  void update_block(double* s, const double* l, double dt, double* out,
+                    double* bending = nullptr) const
   {
     // dt L, and the midpoint gradient dt L (I + dt L / 2)^-1.
     const Lanes axx = dt * load(l), ayx = dt * load(l + lane_count),
@@ -212,17 +215,28 @@ class Hypoelastic final : public Law<2> {
     if constexpr (plane_strain) {
       const auto& z = stiffness_.out_of_plane;
       Lanes zz = at(s, third) + z(0) * d.xx + z(1) * d.yy + z(2) * shear;
-      if constexpr (Plastic) return_radially(s, t, zz, bent);
+      if constexpr (Plastic) {
+        if (bending)
+          return_bent(s, t, zz, bending);
+        else
+          return_radially(s, t, zz);
+      }
       put(zz, s, third);
     } else {
       const auto& z = stiffness_.thickness_strain;
       const Symmetric old = stress(s);
-      PlaneStressReturn flow;
-      if constexpr (Plastic) flow = return_in_plane_stress(s, t, bent);
-      // Elastic part from the stress that was really gained, plastic part -(dep_xx + dep_yy),
-      // dep = gamma P sigma.
+      const Lanes trial = t.xx + t.yy;
+      if constexpr (Plastic) {
+        Lanes none = 0.0;
+        if (bending)
+          return_bent(s, t, none, bending);
+        else
+          return_in_plane_stress(s, t);
+      }
+      // Elastic part from the stress that was really gained, plastic part -(dep_xx + dep_yy).
+      const double compliance = (1 - elastic_.poisson_ratio) / elastic_.youngs_modulus;
       put(at(s, third) + z(0) * (t.xx - old.xx) + z(1) * (t.yy - old.yy) + z(2) * (t.xy - old.xy) -
-              flow.multiplier * (t.xx + t.yy) / 3.0,
+              compliance * (trial - (t.xx + t.yy)),
           s, third);
     }
     put(t.xx, s, t_xx);
@@ -231,36 +245,48 @@ class Hypoelastic final : public Law<2> {
     put_force_stress(s, Rotation(nxx, nyx, nxy, nyy), t, out);
   }
 
-  /// As in hencky.cpp: fibres are held along z, deviator and moments shrink alike.
-  void return_radially(double* s, Symmetric& t, Lanes& zz, BentFlow& bent) const
+  void return_radially(double* s, Symmetric& t, Lanes& zz) const
   {
     const Lanes p = (t.xx + t.yy + zz) / 3.0;
     const Lanes a = t.xx - p, b = t.yy - p, c = zz - p;
     const Lanes squared = 1.5 * (a * a + b * b + c * c + 2.0 * t.xy * t.xy);
-    const Lanes together = squared + 0.75 * bent.squared;
-    const RadialReturn flow = flow_(together, at(s, plastic_strain));
+    const RadialReturn flow = flow_(squared, at(s, plastic_strain));
     if (!flow.any) return;
-    const Lanes& scale = bent.scale = flow.scale;
+    const Lanes& scale = flow.scale;
     t = {p + scale * a, p + scale * b, scale * t.xy};
     zz = p + scale * c;
-    record_flow(s, flow_columns, yield_, flow.plastic_strain,
-                squared / select(flow.yields, together, 1.0), (1.0 - scale * scale) * bent.energy);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
   }
 
-  PlaneStressReturn return_in_plane_stress(double* s, Symmetric& t, BentFlow& bent) const
+  void return_in_plane_stress(double* s, Symmetric& t) const
   {
     const Lanes sum = t.xx + t.yy, difference = t.xx - t.yy;
-    const PlaneStressReturn flow =
-        return_to_yield_plane_stress(sum, difference * difference + 4.0 * t.xy * t.xy,
-                                     at(s, plastic_strain), elastic_, yield_, bent.squared);
-    if (!flow.any) return flow;
-    bent.scale = flow.bending_scale;
+    const PlaneStressReturn flow = return_to_yield_plane_stress(
+        sum, difference * difference + 4.0 * t.xy * t.xy, at(s, plastic_strain), elastic_, yield_);
+    if (!flow.any) return;
     const Lanes new_sum = flow.sum_scale * sum, new_difference = flow.difference_scale * difference;
     t = {0.5 * (new_sum + new_difference), 0.5 * (new_sum - new_difference),
          flow.difference_scale * t.xy};
-    record_flow(s, flow_columns, yield_, flow.plastic_strain, flow.share_of_centre,
-                (1.0 - bent.scale * bent.scale) * bent.energy);
-    return flow;
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
+  }
+
+  /// Fibres lie along the axes of the frame that turns with the cell. `bending`: as in bending.hpp.
+  void return_bent(double* s, Symmetric& t, Lanes& zz, double* bending) const
+  {
+    const Lanes p = plane_strain ? (t.xx + t.yy + zz) / 3.0 : Lanes(0.0);
+    const double of_mean = plane_strain ? 3 : 1, of_difference = std::sqrt(0.75),
+                 of_shear = std::sqrt(3.0);
+    BentStress stress{of_mean * (0.5 * (t.xx + t.yy) - p), of_difference * (t.xx - t.yy),
+                      of_shear * t.xy, bent_flow_.bending(bending)};
+    const Lanes before = stress.bending;
+    const BentReturn flow = bent_flow_(stress, at(s, plastic_strain));
+    BentFlow::take(before, stress.bending, bending);
+    if (!flow.any) return;
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
+    const Lanes mean = stress.mean / of_mean, half = stress.along / (2 * of_difference);
+    t = {select(flow.yields, p + mean + half, t.xx), select(flow.yields, p + mean - half, t.yy),
+         select(flow.yields, stress.shear / of_shear, t.xy)};
+    zz = select(flow.yields, p - 2.0 * mean, zz);
   }
 
   PlaneStiffness stiffness_;
@@ -270,6 +296,7 @@ class Hypoelastic final : public Law<2> {
   double density_;
   double wave_speed_;  ///< m/s; of a search over all directions, and asked for at every block
   RadialFlow flow_;
+  BentFlow bent_flow_;
 };
 
 }  // namespace

@@ -76,13 +76,10 @@ class HypoelasticSolid final : public Law<3> {
     if constexpr (!Plastic)
       Law<3>::update_bent(state, blocks, gradient, dt, force_stress, bending);
     else
-      for (int k = 0; k < blocks; ++k) {
-        double* b = bending + k * bending_columns<3> * lane_count;
-        BrickBending bent(b);
+      for (int k = 0; k < blocks; ++k)
         update_block(state + k * columns * lane_count, gradient + k * 9 * lane_count, dt,
-                     force_stress + k * 6 * lane_count, bent);
-        bent.store_shares(b);
-      }
+                     force_stress + k * 6 * lane_count,
+                     bending + k * bending_columns<3> * lane_count);
   }
 
   void force_stress(const double* state, int blocks, double* force_stress) const override
@@ -120,7 +117,7 @@ class HypoelasticSolid final : public Law<3> {
   static Symmetric stress(const double* s) { return load_symmetric(s + tau * lane_count); }
 
   template <class... Bent>
-  void update_block(double* s, const double* l, double dt, double* out, Bent&... bent) const
+  void update_block(double* s, const double* l, double dt, double* out, Bent... bending) const
   {
     // dt L, and the midpoint gradient G = dt L (I + dt L / 2)^-1.
     Tensor a, middle = Tensor::identity(), whole = Tensor::identity();
@@ -137,7 +134,7 @@ class HypoelasticSolid final : public Law<3> {
     // does not, which is right to second order and costs no second rotation.
     const Symmetric half = half_increment(g);
     Symmetric t = (stress(s) + half).turned(rotation_of(g)) + half;
-    if constexpr (Plastic) return_radially(s, t, bent...);
+    if constexpr (Plastic) return_to_yield(s, t, bending...);
     store_scaled(t, 1.0, s + tau * lane_count);
     store_scaled(t, at(s, volume), out);
   }
@@ -152,27 +149,27 @@ class HypoelasticSolid final : public Law<3> {
             0.5 * mu * (g.a[1][2] + g.a[2][1]), 0.5 * mu * (g.a[0][2] + g.a[2][0])};
   }
 
-  void return_radially(double* s, Symmetric& t) const
+  void return_to_yield(double* s, Symmetric& t) const
   {
     const Symmetric dev = t.deviator();
     const RadialReturn flow = flow_(1.5 * dev.squared(), at(s, plastic_strain));
     if (!flow.any) return;
-    scale_deviator(flow.scale, dev, t);
+    put_deviator(flow.scale * dev, t);
     record_flow(s, flow_columns, yield_, flow.plastic_strain);
   }
-  void return_radially(double* s, Symmetric& t, BrickBending& bent) const
+  /// `bending`: as in bending.hpp.
+  void return_to_yield(double* s, Symmetric& t, double* bending) const
   {
-    const Symmetric dev = t.deviator();
-    const BrickReturn flow = bent_flow_(1.5 * dev.squared(), bent, at(s, plastic_strain));
+    Symmetric deviator = t.deviator();
+    const BentReturn flow = bent_flow_(deviator, bending, at(s, plastic_strain));
     if (!flow.any) return;
-    scale_deviator(flow.scale, dev, t);
-    record_flow(s, flow_columns, yield_, flow.plastic_strain, flow.share_of_centre, bent.work());
+    put_deviator(deviator, t);
+    record_flow(s, flow_columns, yield_, flow.plastic_strain);
   }
-  static void scale_deviator(const Lanes& scale, const Symmetric& dev, Symmetric& t)
+  static void put_deviator(const Symmetric& deviator, Symmetric& t)
   {
     const Lanes p = t.mean();
-    t = {p + scale * dev.xx, p + scale * dev.yy, p + scale * dev.zz,
-         scale * dev.xy,     scale * dev.yz,     scale * dev.xz};
+    t = {p + deviator.xx, p + deviator.yy, p + deviator.zz, deviator.xy, deviator.yz, deviator.xz};
   }
 
   IsotropicConstants elastic_;

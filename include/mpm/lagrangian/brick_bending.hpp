@@ -7,6 +7,8 @@
 
 #include <mpm/lagrangian/brick.hpp>
 
+#include <cmath>
+
 namespace mpm {
 
 /// Across axis j a brick is a plate, whose fibres along the other two axes i and k are strained in
@@ -21,35 +23,35 @@ class CellBending<3> {
   CellBending(const BendingModuli<3>& moduli, const Vec<3>& size)
       : moduli_(moduli), half_{0.5 * size[0], 0.5 * size[1], 0.5 * size[2]}
   {
+    // A plate that yields all through bears 3/2 of what its outermost fibres would bear
+    // elastically, fibres that are warped along either edge 9/4.
+    for (int k = 0; k < modes; ++k)
+      fibre_stress_[k] = k >= 9       ? moduli.fibres * 4 / 9
+                         : k % 3 == 0 ? moduli.alike / 3
+                                      : moduli.opposite / std::sqrt(3.0);
   }
   static Column rest_column() { return {"rest_bending", modes, "1"}; }
 
   /// For the law, as in bending.hpp. `rest`: columns of what is plastic of the strains, or null.
-  [[gnu::always_inline]] void put_trial(const Lanes (&bent)[modes], const double* rest,
-                                        const Lanes& volume, double* columns) const
+  [[gnu::always_inline]] void put_trial(const CellDeformation<3>& now, const double* rest,
+                                        double* columns) const
   {
-    const Squares squares(elastic_strains(bent, rest));
-    // A plate that yields all through bears 3/2 of what its outermost fibres would bear
-    // elastically, fibres that are warped along either edge 9/4.
-    store(moduli_.alike * moduli_.alike * squares.alike / 9.0, columns);
-    store(moduli_.opposite * moduli_.opposite * squares.opposite / 3.0 +
-              moduli_.fibres * moduli_.fibres * squares.warping * (16.0 / 81.0),
-          columns + lane_count);
-    store(volume * alike_energy(squares), columns + 2 * lane_count);
-    store(volume * other_energy(squares), columns + 3 * lane_count);
+    const Strains strains = elastic_strains(now.bending, rest);
+    for (int k = 0; k < modes; ++k)
+      store(fibre_stress_[k] * strains.of[k], columns + k * lane_count);
+    for (int k = 0; k < 9; ++k) store(now.f[k], columns + (modes + k) * lane_count);
   }
-  /// Once the law has put shares in place of the squares: dW/db at 3 m, J m and J m^2, and what is
-  /// plastic.
+  /// Once the law has put what flow takes in place of the stresses: dW/db at 3 m, J m and J m^2,
+  /// and what becomes plastic.
   [[gnu::always_inline]] void moments(const Lanes (&bent)[modes], const double* columns,
                                       const Lanes& volume, double* rest,
                                       Lanes (&moment)[modes]) const
   {
     Strains elastic = elastic_strains(bent, rest);
-    const Lanes alike_share = load(columns), other_share = load(columns + lane_count);
-    if (rest && stdx::any_of(stdx::min(alike_share, other_share) < 1.0))
+    if (rest)
       for (int k = 0; k < modes; ++k) {
+        const Lanes lost = (1 / fibre_stress_[k]) * column(columns, k);
         double* of_mode = rest + k * lane_count;
-        const Lanes lost = elastic.of[k] * (1.0 - (is_alike(k) ? alike_share : other_share));
         store(load(of_mode) + lost, of_mode);
         elastic.of[k] -= lost;
       }
@@ -80,7 +82,6 @@ class CellBending<3> {
   struct Strains {
     Lanes of[modes];
   };
-  static constexpr bool is_alike(int k) { return k < 9 && k % 3 == 0; }
   /// Sums over the axes.
   struct Squares {
     Lanes alike = 0.0, opposite = 0.0, warping = 0.0;
@@ -118,7 +119,8 @@ class CellBending<3> {
   }
 
   BendingModuli<3> moduli_;
-  double half_[3];  ///< m
+  double half_[3];              ///< m
+  double fibre_stress_[modes];  ///< Pa, over what the outermost fibres are strained by
 };
 
 }  // namespace mpm

@@ -89,6 +89,7 @@ class CellBending<2> {
     for (int axis = 0; axis < 2; ++axis) {
       const double thickness = size[1 - axis], modulus = moduli.fibres[axis];
       fibre_stress_[axis] = modulus * thickness / 3;
+      compliance_[axis] = modulus > 0 ? 1 / fibre_stress_[axis] : 0;
       bending_[axis] = modulus * thickness * thickness / 12;
     }
   }
@@ -96,34 +97,28 @@ class CellBending<2> {
 
   /// For the law, as in bending.hpp. `rest`: columns of the bending without moments, which is what
   /// the cell had at rest and what is plastic since; or null where that stays 0.
-  [[gnu::always_inline]] void put_trial(const Lanes (&bent)[modes], const double* rest,
-                                        const Lanes& volume, double* columns) const
+  [[gnu::always_inline]] void put_trial(const CellDeformation<2>& now, const double* rest,
+                                        double* columns) const
   {
-    Lanes squared = 0.0, energy = 0.0;
-    for (int j = 0; j < modes; ++j) {
-      Lanes elastic = bent[j];
-      if (rest) elastic -= column(rest, j);
-      squared += (fibre_stress_[j] * elastic) * (fibre_stress_[j] * elastic);
-      energy += 0.5 * bending_[j] * elastic * elastic;
-    }
-    store(squared, columns);
-    store(volume * energy, columns + lane_count);
+    for (int j = 0; j < modes; ++j)
+      store(fibre_stress_[j] * elastic(now.bending, rest, j), columns + j * lane_count);
+    for (int k = 0; k < 4; ++k) store(now.f[k], columns + (modes + k) * lane_count);
   }
-  /// Once the law has put shares in place of the squares: moments, J m, and what becomes plastic.
+  /// Once the law has put what flow takes in place of the stresses: moments, J m, and what becomes
+  /// plastic.
   [[gnu::always_inline]] void moments(const Lanes (&bent)[modes], const double* columns,
                                       const Lanes& volume, double* rest,
                                       Lanes (&moment)[modes]) const
   {
-    const Lanes scale = load(columns);
     for (int j = 0; j < modes; ++j) {
-      Lanes elastic = bent[j];
+      Lanes left = elastic(bent, rest, j);
       if (rest) {
+        const Lanes lost = compliance_[j] * column(columns, j);
         double* of_mode = rest + j * lane_count;
-        const Lanes before = load(of_mode);
-        elastic = scale * (elastic - before);
-        store(select(scale < 1.0, bent[j] - elastic, before), of_mode);
+        store(load(of_mode) + lost, of_mode);
+        left -= lost;
       }
-      moment[j] = bending_[j] * volume * elastic;
+      moment[j] = bending_[j] * volume * left;
     }
   }
   /// J
@@ -131,14 +126,20 @@ class CellBending<2> {
                   Lanes& sum) const
   {
     for (int j = 0; j < modes; ++j) {
-      Lanes elastic = bent[j];
-      if (rest) elastic -= column(rest, j);
-      sum += 0.5 * bending_[j] * volume * elastic * elastic;
+      const Lanes stored = elastic(bent, rest, j);
+      sum += 0.5 * bending_[j] * volume * stored * stored;
     }
   }
 
  private:
+  [[gnu::always_inline]] static Lanes elastic(const Lanes (&bent)[modes], const double* rest,
+                                              int mode)
+  {
+    return rest ? bent[mode] - column(rest, mode) : bent[mode];
+  }
+
   Vec<2> fibre_stress_;  ///< Pa m: (m / (V0 h / 4)) over the elastic bending
+  Vec<2> compliance_;    ///< 1/(Pa m): of fibre_stress_
   Vec<2> bending_;       ///< Pa m^2: m / V0 over the elastic bending
 };
 

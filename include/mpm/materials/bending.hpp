@@ -3,8 +3,11 @@
 /// axis. A brick bends as the plate that it is across each axis: alike along both axes of the
 /// plate, oppositely, and twisted; what is left of its corners warps it.
 
+#include <mpm/core/lanes.hpp>
 #include <mpm/core/types.hpp>
 #include <mpm/materials/elastic_constants.hpp>
+
+#include <algorithm>
 
 namespace mpm {
 
@@ -33,18 +36,25 @@ struct BendingModuli<3> {
   }
 };
 
-/// Columns of lanes per block in Law::update_bent. In: squares of stresses of fibres, Pa^2, and
-/// then energies, J, of the moments that the cell would bend with elastically. Out: in place of the
-/// squares, what share of these moments the yield stress leaves.
-///
-/// The stress of fibres is that with which they bear a moment m when all of them yield: with the
-/// thickness h, m / (V0 h / 4). In the plane: the sum of its squares over the axes, and the energy.
-/// In space two of either: of moments that bend alike, sum of ((s_1 + s_2) / 2)^2 over the axes
-/// across plates; and of all others, sum of 3/4 (s_1 - s_2)^2 + 3 s_12^2, and of the squares of
-/// what warping strains. Together they are the squares of the plates' von Mises stress.
+/// Stresses of fibres in Law::update_bent: with which they bear the moments when all of them yield.
+/// With the thickness h that of a moment m is m / (V0 h / 4). In the plane one for the fibres along
+/// each axis. In space those of the plates across each axis, in parts whose squares add up to that
+/// of the von Mises stress, (s_1 + s_2) / 2, sqrt(3/4) (s_1 - s_2) and sqrt(3) s_12 of the next two
+/// axes; and then of what warping strains along each axis.
 template <int Dim>
-inline constexpr int bending_shares = Dim - 1;
+inline constexpr int bending_stresses = Dim == 2 ? 2 : 12;
+
+/// Columns of lanes per block in Law::update_bent: the stresses of fibres, Pa, in: of the moments
+/// that the cell would bend with elastically, out: what flow takes of them; and then the cell's
+/// deformation F_ij at i + Dim j.
 template <int Dim>
-inline constexpr int bending_columns = 2 * bending_shares<Dim>;
+inline constexpr int bending_columns = bending_stresses<Dim> + Dim* Dim;
+
+/// Of one block that does not flow.
+template <int Dim>
+void take_no_moments(double* columns)
+{
+  std::fill_n(columns, bending_stresses<Dim> * lane_count, 0.0);
+}
 
 }  // namespace mpm

@@ -1,101 +1,189 @@
 #pragma once
 /// Von Mises flow of bricks that bend: the deviator at the centre and the moments of the plates
-/// across all axes yield together, and flow along the normal of the common surface.
+/// across all axes yield together, and flow along the normal of the common surface,
+///   Q = q^2 + s^2 / 2 + sqrt(s^4 / 4 + sum over the plates of <N, T>^2) <= s_Y^2,
+/// that of shells (Ilyushin 1948, in the form of Ivanov 1967) as in bent_flow.hpp: T the stress of
+/// the fibres of a plate, s^2 the sum of its squares and that of warping, N the deviator at the
+/// centre, <N, T> = 3/2 N : T, of which q^2 = <N, N>. Rounded as there.
 
 #include <mpm/materials/bending.hpp>
-#include <mpm/materials/von_mises_flow.hpp>
+#include <mpm/materials/cutting_planes.hpp>
+#include <mpm/materials/elastic_constants.hpp>
+#include <mpm/materials/space_tensor.hpp>
+
+#include <array>
+#include <cmath>
 
 namespace mpm {
 
-/// One block's columns of bending.hpp, and what flow leaves of the moments.
-struct BrickBending {
-  Lanes alike_squared, other_squared;  ///< Pa^2
-  Lanes alike_energy, other_energy;    ///< J
-  Lanes alike_share = 1.0, other_share = 1.0;
+/// R of F = R U, det F > 0, to 1e-4 for stretches from 1/3 to 3 (Newton's method: Higham 1986, SIAM
+/// J. Sci. Stat. Comput. 7:1160).
+inline Tensor rotation_in(const Tensor& f)
+{
+  Tensor r = f;
+  for (int iteration = 0; iteration < 4; ++iteration) {
+    const Tensor inverse = r.inverse();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) r.a[i][j] = 0.5 * (r.a[i][j] + inverse.a[j][i]);
+  }
+  return r;
+}
 
-  [[gnu::always_inline]] explicit BrickBending(const double* columns)
-      : alike_squared(load(columns)),
-        other_squared(load(columns + lane_count)),
-        alike_energy(load(columns + 2 * lane_count)),
-        other_energy(load(columns + 3 * lane_count))
-  {
-  }
-  [[gnu::always_inline]] void store_shares(double* columns) const
-  {
-    store(alike_share, columns);
-    store(other_share, columns + lane_count);
-  }
-  /// J, of flow: what is left of the moments times the plastic part of the bending. All that the
-  /// energy loses would count the overshoot of the trial, half a step's worth, as work.
-  Lanes work() const
-  {
-    return 2.0 * (alike_share * (1.0 - alike_share) * alike_energy +
-                  other_share * (1.0 - other_share) * other_energy);
-  }
+/// Stresses of a brick, Pa.
+struct BrickStress {
+  Symmetric deviator;                              ///< at the centre
+  std::array<Lanes, bending_stresses<3>> bending;  ///< as in bending.hpp
 };
 
-/// Share of the work of flow that is done at the centre beside what is in RadialReturn.
-struct BrickReturn : RadialReturn {
-  Lanes share_of_centre = 1.0;
-};
-
-/// With q^2 of the centre and the squares A of moments that bend alike and D of the others, flow by
-/// g = 2 mu times the multiplier leaves (q^2 + D) / (1 + g)^2 + A / (1 + r g)^2, as in plane stress
-/// (Simo & Taylor 1986, IJNME 22:649), r = E / (3 (1 - nu)) / 2 mu.
 class BrickFlow {
  public:
   BrickFlow(const IsotropicConstants& elastic, const YieldConstants& yield)
-      : ratio_((1 + elastic.poisson_ratio) / (3 * (1 - elastic.poisson_ratio))),
-        three_mu_(3 * elastic.shear_modulus()),
-        yield_(yield)
+      : shear_modulus_(3 * elastic.shear_modulus()), yield_(yield)
   {
+    // Of energies per volume: E / (1 - nu) / 12 and 2 G / 12 times the squares of what outermost
+    // fibres are strained by, E / 18 of what they are warped by.
+    for (std::size_t k = 0; k < modulus_.size(); ++k)
+      modulus_[k] = k >= 9       ? elastic.youngs_modulus * 16 / 9
+                    : k % 3 == 0 ? elastic.youngs_modulus / (1 - elastic.poisson_ratio) * 2 / 3
+                                 : 4 * elastic.shear_modulus();
   }
 
-  /// `squared`: q^2 of the trial stress at the centre, Pa^2; `plastic_strain`: before the step.
-  BrickReturn operator()(const Lanes& squared, BrickBending& bending,
-                         const Lanes& plastic_strain) const
+  /// From the trial stress to the yield surface. `deviator`: of the stress at the centre, Pa, along
+  /// the axes of space; `columns`: as in bending.hpp; `plastic_strain`: before the step.
+  BentReturn operator()(Symmetric& deviator, double* columns, const Lanes& plastic_strain) const
   {
-    BrickReturn result;
-    const Lanes& alike = bending.alike_squared;
-    const Lanes other = squared + bending.other_squared;
+    BrickStress t;
+    for (std::size_t k = 0; k < t.bending.size(); ++k)
+      t.bending[k] = load(columns + k * lane_count);
+    const Lanes fibres = squares(t.bending);
     const Lanes limit = yield_.yield_stress + yield_.hardening_modulus * plastic_strain;
-    result.yields = alike + other > limit * limit;
-    result.any = stdx::any_of(result.yields);
-    if (!result.any) return result;
-    // 1 / stress is linear in g without `alike`, and nearly so with it: Newton's method starts from
-    // what g would be if all shrank as the others do, and has two or three steps to go.
-    constexpr int most_iterations = 20;
-    constexpr double tolerance = 1e-12;
-    const double slope_of_limit = yield_.hardening_modulus / three_mu_;
-    const Lanes inverse_limit = 1.0 / limit;
-    const Lanes inverse_trial =
-        1.0 / stdx::sqrt(select(result.yields, alike + other, limit * limit));
-    Lanes g = (inverse_limit - inverse_trial) / (inverse_trial + slope_of_limit * inverse_limit);
-    stdx::where(!result.yields, g) = 0.0;
-    Lanes p, r, reached;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      p = 1.0 / (1.0 + g);
-      r = 1.0 / (1.0 + ratio_ * g);
-      reached = select(result.yields, other * p * p + alike * r * r, Lanes(1.0));
-      const Lanes inverse = 1.0 / stdx::sqrt(reached);
-      Lanes residual = (1.0 - slope_of_limit * g) * inverse_limit - inverse;
-      stdx::where(!result.yields, residual) = 0.0;
-      if (stdx::all_of(stdx::abs(residual) * limit <= tolerance)) break;
-      const Lanes slope =
-          slope_of_limit * inverse_limit +
-          inverse * inverse * inverse * (other * p * p * p + ratio_ * alike * r * r * r);
-      g += select(result.yields, residual / slope, Lanes(0.0));
+    const Lanes centre = 1.5 * deviator.squared();
+    // As if all of the stress at the centre were along the fibres.
+    const Lanes most = centre + 0.5 * fibres + stdx::sqrt((0.25 * fibres + centre) * fibres);
+    if (stdx::none_of(most > limit * limit)) {
+      take_no_moments<3>(columns);
+      return {};
     }
-    result.scale = p;
-    result.plastic_strain = g * stdx::sqrt(reached) / three_mu_;
-    result.share_of_centre = squared * p * p / reached;
-    bending.other_share = p;
-    bending.alike_share = r;
-    return result;
+    const Tensor rotation = rotation_of(columns);
+    t.deviator = deviator.turned(rotation.transposed());
+    const BentReturn flow = cut_back(*this, t, yield_, 1e-6 * shear_modulus_, plastic_strain);
+    if (!flow.any) {
+      take_no_moments<3>(columns);
+      return flow;
+    }
+    put_where(flow.yields, t.deviator.turned(rotation), deviator);
+    for (std::size_t k = 0; k < t.bending.size(); ++k) {
+      double* stress = columns + k * lane_count;
+      store(load(stress) - t.bending[k], stress);
+    }
+    return flow;
+  }
+
+  // For cut_back:
+  struct Found {
+    Lanes squared;                   ///< Q
+    Lanes half, root;                ///< half of s^2, rounded; the root in Q
+    std::array<Lanes, 3> centre[3];  ///< N along the fibres of each plate
+    Lanes product[3];                ///< <N, T>
+  };
+  Found at(const BrickStress& t, const Lanes& rounded) const
+  {
+    Found found;
+    Lanes products = 0.0;
+    for (int j = 0; j < 3; ++j) {
+      found.centre[j] = along(t.deviator, j);
+      found.product[j] = 0.0;
+      for (std::size_t k = 0; k < 3; ++k)
+        found.product[j] += found.centre[j][k] * t.bending[3 * std::size_t(j) + k];
+      products += found.product[j] * found.product[j];
+    }
+    const Lanes fibres = squares(t.bending);
+    found.half = 0.5 * fibres + rounded;
+    found.root = stdx::sqrt(found.half * found.half + products);
+    found.squared = 1.5 * t.deviator.squared() + 0.5 * fibres + (found.root - rounded);
+    return found;
+  }
+  BrickStress normal(const BrickStress& t, const Found& found, const Lanes& over) const
+  {
+    const Lanes half_root = 0.5 / found.root;
+    BrickStress n;
+    n.deviator = over * t.deviator;
+    for (std::size_t k = 0; k < n.bending.size(); ++k)
+      n.bending[k] = (0.5 + found.half * half_root) * over * t.bending[k];
+    for (int j = 0; j < 3; ++j) {
+      const std::size_t first = 3 * std::size_t(j);
+      const Lanes factor = found.product[j] * half_root * over;
+      add(&t.bending[first], j, factor, n.deviator);
+      for (std::size_t k = 0; k < 3; ++k) n.bending[first + k] += factor * found.centre[j][k];
+    }
+    return n;
+  }
+  Lanes stiffness(const BrickStress& n) const
+  {
+    Lanes sum = shear_modulus_ * 1.5 * n.deviator.squared();
+    for (std::size_t k = 0; k < n.bending.size(); ++k)
+      sum += modulus_[k] * n.bending[k] * n.bending[k];
+    return sum;
+  }
+  void flow(BrickStress& t, const BrickStress& n, const Lanes& amount) const
+  {
+    t.deviator = t.deviator + (-shear_modulus_ * amount) * n.deviator;
+    // A plane that cuts beyond where the moments are gone is of no use there.
+    std::array<Lanes, bending_stresses<3>> next;
+    Lanes left = 0.0;
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      next[k] = t.bending[k] - modulus_[k] * amount * n.bending[k];
+      left += next[k] * t.bending[k];
+    }
+    for (std::size_t k = 0; k < next.size(); ++k)
+      t.bending[k] = select(left > 0.0, next[k], Lanes(0.0));
+  }
+  Lanes work(const BrickStress& t, const BrickStress& trial) const
+  {
+    const Symmetric lost = trial.deviator + Lanes(-1.0) * t.deviator;
+    Lanes sum = 1.5 / shear_modulus_ * t.deviator.contracted(lost);
+    for (std::size_t k = 0; k < t.bending.size(); ++k)
+      sum += t.bending[k] * (trial.bending[k] - t.bending[k]) / modulus_[k];
+    return sum;
   }
 
  private:
-  double ratio_, three_mu_;
+  static Lanes squares(const std::array<Lanes, bending_stresses<3>>& parts)
+  {
+    Lanes sum = 0.0;
+    for (const Lanes& part : parts) sum += part * part;
+    return sum;
+  }
+  static Tensor rotation_of(const double* columns)
+  {
+    Tensor f;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        f.a[i][j] = load(columns + (bending_stresses<3> + i + 3 * j) * lane_count);
+    return rotation_in(f);
+  }
+
+  /// Of the deviator, along the parts of the stress of plate j's fibres: <N, T> is their product.
+  static std::array<Lanes, 3> along(const Symmetric& n, int j)
+  {
+    const Lanes normal[3] = {n.xx, n.yy, n.zz}, shear[3] = {n.yz, n.xz, n.xy};
+    return {-1.5 * normal[j], std::sqrt(0.75) * (normal[(j + 1) % 3] - normal[(j + 2) % 3]),
+            std::sqrt(3.0) * shear[j]};
+  }
+  /// Adds the deviator of the stress of plate j's fibres, times a factor.
+  static void add(const Lanes* part, int j, const Lanes& factor, Symmetric& sum)
+  {
+    Lanes* normal[3] = {&sum.xx, &sum.yy, &sum.zz};
+    Lanes* shear[3] = {&sum.yz, &sum.xz, &sum.xy};
+    const Lanes third = part[0] * (1.0 / 3), half = part[1] / std::sqrt(3.0);
+    *normal[j] -= 2.0 * factor * third;
+    *normal[(j + 1) % 3] += factor * (third + half);
+    *normal[(j + 2) % 3] += factor * (third - half);
+    *shear[j] += factor * part[2] / std::sqrt(3.0);
+  }
+
+  double shear_modulus_;
+  std::array<double, bending_stresses<3>> modulus_;  ///< Pa, of the stresses of fibres
   YieldConstants yield_;
 };
 

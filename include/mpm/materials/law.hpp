@@ -43,8 +43,7 @@ class Law {
   {
     update(state, blocks, gradient, dt, force_stress);
     for (int k = 0; k < blocks; ++k)
-      for (int share = 0; share < bending_shares<Dim>; ++share)
-        store(Lanes(1.0), bending + (bending_columns<Dim> * k + share) * lane_count);
+      take_no_moments<Dim>(bending + k * bending_columns<Dim> * lane_count);
   }
   /// V0 tau of the present state, without changing it.
   virtual void force_stress(const double* state, int blocks, double* force_stress) const = 0;

@@ -11,56 +11,44 @@ namespace mpm {
 struct PlaneStressReturn {
   Lanes sum_scale = 1.0;         ///< of s1 + s2
   Lanes difference_scale = 1.0;  ///< of s1 - s2 (and of the shear stress)
-  Lanes bending_scale = 1.0;     ///< of the stress of fibres that bend
-  Lanes multiplier = 0.0;        ///< plastic multiplier gamma, 1/Pa: dep = gamma P sigma
   Lanes plastic_strain = 0.0;    ///< increment of the equivalent plastic strain
-  Lanes share_of_centre = 1.0;   ///< of the work of flow, beside the fibres that bend
   bool any = false;              ///< whether any lane yields
 };
 
-/// `sum` = s1 + s2 and `difference_squared` = (s1 - s2)^2 of the trial principal stresses;
-/// `bending_squared` of fibres in uniaxial stress that yield together with them.
+/// `sum` = s1 + s2 and `difference_squared` = (s1 - s2)^2 of the trial principal stresses.
 inline PlaneStressReturn return_to_yield_plane_stress(const Lanes& sum,
                                                       const Lanes& difference_squared,
                                                       const Lanes& plastic_strain,
                                                       const IsotropicConstants& elastic,
-                                                      const YieldConstants& yield,
-                                                      const Lanes& bending_squared = 0.0)
+                                                      const YieldConstants& yield)
 {
   PlaneStressReturn result;
   const double bulk = elastic.youngs_modulus / (3 * (1 - elastic.poisson_ratio));
   const double shear = 2 * elastic.shear_modulus();
-  const double uniaxial = 2.0 / 3.0 * elastic.youngs_modulus;
-  const Lanes a = sum * sum / 6.0, b = 0.5 * difference_squared, c = bending_squared * (2.0 / 3.0);
+  const Lanes a = sum * sum / 6.0, b = 0.5 * difference_squared;
   const Lanes old_yield = yield.yield_stress + yield.hardening_modulus * plastic_strain;
-  const LaneMask yields = 0.5 * (a + b + c) > old_yield * old_yield / 3.0;
+  const LaneMask yields = 0.5 * (a + b) > old_yield * old_yield / 3.0;
   if (!stdx::any_of(yields)) return result;
   result.any = true;
   Lanes gamma = 0.0;
   const double tolerance = 1e-14 * yield.yield_stress * yield.yield_stress;
   for (int iteration = 0; iteration < 50; ++iteration) {
-    const Lanes p = 1.0 / (1.0 + bulk * gamma), q = 1.0 / (1.0 + shear * gamma),
-                r = 1.0 / (1.0 + uniaxial * gamma);
-    const Lanes xi = a * p * p + b * q * q + c * r * r;
+    const Lanes p = 1.0 / (1.0 + bulk * gamma), q = 1.0 / (1.0 + shear * gamma);
+    const Lanes xi = a * p * p + b * q * q;
     const Lanes root = stdx::sqrt(2.0 / 3.0 * xi);
     const Lanes stress = old_yield + yield.hardening_modulus * gamma * root;
     Lanes residual = 0.5 * xi - stress * stress / 3.0;
     stdx::where(!yields, residual) = 0.0;
     if (stdx::all_of(stdx::abs(residual) <= tolerance)) break;
-    const Lanes xi_slope =
-        -2.0 * (a * bulk * p * p * p + b * shear * q * q * q + c * uniaxial * r * r * r);
+    const Lanes xi_slope = -2.0 * (a * bulk * p * p * p + b * shear * q * q * q);
     const Lanes slope = 0.5 * xi_slope - 2.0 / 3.0 * stress * yield.hardening_modulus *
                                              (root + gamma * xi_slope / (3.0 * root));
     stdx::where(yields, gamma) = gamma - residual / slope;
   }
-  result.multiplier = gamma;
   result.sum_scale = 1.0 / (1.0 + bulk * gamma);
   result.difference_scale = 1.0 / (1.0 + shear * gamma);
-  result.bending_scale = 1.0 / (1.0 + uniaxial * gamma);
-  const Lanes centre = a * result.sum_scale * result.sum_scale +
-                       b * result.difference_scale * result.difference_scale;
-  const Lanes xi = centre + c * result.bending_scale * result.bending_scale;
-  result.share_of_centre = centre / select(yields, xi, centre + 1.0);
+  const Lanes xi = a * result.sum_scale * result.sum_scale +
+                   b * result.difference_scale * result.difference_scale;
   result.plastic_strain = gamma * stdx::sqrt(2.0 / 3.0 * xi);
   return result;
 }

@@ -78,16 +78,4 @@ class Spectrum {
   Tensor a_, v_;
 };
 
-/// Lanes of `target` where the mask holds.
-[[gnu::always_inline]] inline void put_where(const LaneMask& mask, const Symmetric& value,
-                                             Symmetric& target)
-{
-  stdx::where(mask, target.xx) = value.xx;
-  stdx::where(mask, target.yy) = value.yy;
-  stdx::where(mask, target.zz) = value.zz;
-  stdx::where(mask, target.xy) = value.xy;
-  stdx::where(mask, target.yz) = value.yz;
-  stdx::where(mask, target.xz) = value.xz;
-}
-
 }  // namespace mpm

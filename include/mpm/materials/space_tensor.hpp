@@ -19,6 +19,13 @@ struct Tensor {
   {
     return a[0][0] * cofactor(0, 0) + a[0][1] * cofactor(0, 1) + a[0][2] * cofactor(0, 2);
   }
+  Tensor transposed() const
+  {
+    Tensor result;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) result.a[i][j] = a[j][i];
+    return result;
+  }
   Tensor inverse() const
   {
     const Lanes scale = 1.0 / determinant();
@@ -46,7 +53,7 @@ struct Symmetric {
   Lanes mean() const { return (xx + yy + zz) / 3.0; }
   Lanes squared() const  ///< A : A
   {
-    return xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + xz * xz);
+    return contracted(*this);
   }
   Symmetric deviator() const
   {
@@ -66,6 +73,14 @@ struct Symmetric {
   {
     return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.yz + b.yz, a.xz + b.xz};
   }
+  friend Symmetric operator*(const Lanes& by, const Symmetric& a)
+  {
+    return {by * a.xx, by * a.yy, by * a.zz, by * a.xy, by * a.yz, by * a.xz};
+  }
+  Lanes contracted(const Symmetric& b) const  ///< A : B
+  {
+    return xx * b.xx + yy * b.yy + zz * b.zz + 2.0 * (xy * b.xy + yz * b.yz + xz * b.xz);
+  }
   /// Q A Q^T
   [[gnu::always_inline]] Symmetric turned(const Tensor& q) const
   {
@@ -76,6 +91,18 @@ struct Symmetric {
     return {at(0, 0), at(1, 1), at(2, 2), at(0, 1), at(1, 2), at(0, 2)};
   }
 };
+
+/// Lanes of `target` where the mask holds.
+[[gnu::always_inline]] inline void put_where(const LaneMask& mask, const Symmetric& value,
+                                             Symmetric& target)
+{
+  stdx::where(mask, target.xx) = value.xx;
+  stdx::where(mask, target.yy) = value.yy;
+  stdx::where(mask, target.zz) = value.zz;
+  stdx::where(mask, target.xy) = value.xy;
+  stdx::where(mask, target.yz) = value.yz;
+  stdx::where(mask, target.xz) = value.xz;
+}
 
 /// Six columns.
 [[gnu::always_inline]] inline Symmetric load_symmetric(const double* columns)

@@ -61,31 +61,27 @@ class RadialFlow {
   YieldConstants yield_;
 };
 
+/// What flow of a cell that bends takes.
+struct BentReturn {
+  Lanes plastic_strain = 0.0;  ///< increment of the equivalent plastic strain
+  LaneMask yields{false};
+  bool any = false;  ///< whether any lane yields
+};
+
 /// Columns of a law's state.
 struct FlowColumns {
   int volume, plastic_strain, plastic_work;
 };
 
-/// Of cells that bend: what enters the yield condition beside the deviator at the centre, and how
-/// much of it flow takes.
-struct BentFlow {
-  /// (m / (V0 h / 4))^2, Pa^2: 0 for cells that do not bend.
-  Lanes squared = 0.0;
-  Lanes energy = 0.0;  ///< J, of the moments
-  Lanes scale = 1.0;   ///< of the moments
-};
-
-/// Adds an increment of plastic strain to one block's state, and its work; `share` of it was done
-/// at the centre, and `bent` is the work done by the moments, J.
+/// Adds an increment of plastic strain to one block's state, and its work.
 inline void record_flow(double* state, const FlowColumns& columns, const YieldConstants& yield,
-                        const Lanes& increment, const Lanes& share = 1.0, const Lanes& bent = 0.0)
+                        const Lanes& increment)
 {
   const auto column = [state](int index) { return state + index * lane_count; };
   const Lanes strain = load(column(columns.plastic_strain)) + increment;
   const Lanes stress = yield.yield_stress + yield.hardening_modulus * strain;
   store(strain, column(columns.plastic_strain));
-  store(load(column(columns.plastic_work)) +
-            load(column(columns.volume)) * stress * increment * share + bent,
+  store(load(column(columns.plastic_work)) + load(column(columns.volume)) * stress * increment,
         column(columns.plastic_work));
 }
 

@@ -1,4 +1,5 @@
-// One cell that is a piece of a wall, bent far beyond yield: plastic moment, energy, both laws.
+// Cells that are pieces of a wall, bent and drawn far beyond yield: plastic moment, energy, both
+// laws.
 #include <mpm/lagrangian/location_cells.hpp>
 #include <mpm/materials/elastic_constants.hpp>
 #include <mpm/materials/hencky.hpp>
@@ -15,7 +16,7 @@ namespace {
 const Vec<2> size(2e-6, 1e-6);
 constexpr double volume = 2e-12, density = 1500;
 const IsotropicConstants elastic{10e9, 0.3};
-const YieldConstants yield{100e6, 0};
+const YieldConstants yield{1e6, 0};
 
 using MakeLaw = std::function<std::unique_ptr<Law<2>>(PlaneAssumption)>;
 
@@ -40,26 +41,33 @@ class BentCell {
     cells_.emplace(body_, std::span(&corners, 1), size);
   }
 
-  /// Bends by `curvature` (1/m) more: fibres along x at distance y are strained by curvature y.
-  void bend(double curvature)
+  /// Bends by `curvature` (1/m) more: fibres along x at distance y are strained by curvature y; and
+  /// draws them all by `strain` more, with sides that are free.
+  void bend(double curvature, double strain = 0)
   {
     const double move = curvature * size[0] * size[1] / 4;  // of a corner along x
-    for (LocalIndex node = 0; node < 4; ++node)
-      fields_.updated_of(node)[0] = (node == 0 || node == 3 ? move : -move) / dt;
+    // Half of what takes the stress across away, if the cell is elastic.
+    const double across = (force(2, 1) + force(3, 1)) / size[0];  // Pa
+    const double narrower = 0.5 * across / elastic.in_plane_modulus(PlaneAssumption::strain);
+    double way[4][2];
+    for (int corner = 0; corner < 4; ++corner) {
+      const double right = corner % 2 ? 0.5 : -0.5, up = corner / 2 ? 0.5 : -0.5;
+      way[corner][0] = (corner == 0 || corner == 3 ? move : -move) + right * strain * size[0];
+      way[corner][1] = strain != 0 ? up * narrower * size[1] : 0;
+      for (int d = 0; d < 2; ++d) fields_.updated_of(corner)[d] = way[corner][d] / dt;
+    }
     const auto before = forces_;
     nodes_.move(fields_, dt);
     ASSERT_FALSE(cells_->update(body_, nodes_, dt, forces_.data()));
-    for (int corner = 0; corner < 4; ++corner) {
-      const std::size_t at = std::size_t(2 * corner * lane_count);
-      work_ -= 0.5 * (before[at] + forces_[at]) * (corner == 0 || corner == 3 ? move : -move);
-    }
+    for (int corner = 0; corner < 4; ++corner)
+      for (int d = 0; d < 2; ++d)
+        work_ -= 0.5 * (before[at(corner, d)] + forces_[at(corner, d)]) * way[corner][d];
   }
 
   /// N m: two forces on either end, a thickness apart.
-  double moment() const
-  {
-    return 0.5 * std::abs(forces_[0] - forces_[2 * 2 * lane_count]) * size[1];
-  }
+  double moment() const { return 0.5 * (force(2, 0) - force(0, 0)) * size[1]; }
+  /// N, along the fibres.
+  double normal_force() const { return -(force(1, 0) + force(3, 0)); }
   double stored() const
   {
     return cells_->bending_energy(body_, nodes_) +
@@ -74,6 +82,8 @@ class BentCell {
 
  private:
   static constexpr double dt = 1e-9;
+  static std::size_t at(int corner, int d) { return std::size_t((2 * corner + d) * lane_count); }
+  double force(int corner, int d) const { return forces_[at(corner, d)]; }
   static ParticleStore store_of() { return {{{"position", 2, "m"}}, {{"volume", 1, "m3"}}, {}}; }
 
   Body<2> body_;
@@ -117,6 +127,49 @@ TEST_P(PlasticBending, StopsAtThePlasticMomentAndDissipatesWhatIsNotStored)
   EXPECT_NEAR(cell.moment() / plastic, 1, 2e-3);
   EXPECT_NEAR((cell.stored() + cell.dissipated()) / cell.work(), 1, 2e-3);
   EXPECT_NEAR(cell.dissipated() / (2 * plastic * first * size[0]), 1, 1e-2);
+}
+
+/// Over the plastic moment and over the plastic force.
+struct Borne {
+  double moment, force;
+};
+/// What a wall of `cells` cells across bears that is bent around a line `shift` of half of it away
+/// from its middle: each cell is drawn by as much as it is away from there.
+Borne bear(const Case& c, int cells, double shift)
+{
+  const double held = c.plane == PlaneAssumption::strain ? 2 / std::sqrt(3.0) : 1.0;
+  const double thickness = cells * size[1];
+  const double curvature = 40 * held * yield.yield_stress / elastic.youngs_modulus / thickness;
+  constexpr int steps = 8000;
+  Borne borne{0, 0};
+  for (int k = 0; k < cells; ++k) {
+    BentCell cell(c.make(c.plane));
+    const double from_middle = (k + 0.5) * size[1] - 0.5 * thickness;
+    for (int step = 0; step < steps; ++step)
+      cell.bend(curvature / steps, curvature / steps * (from_middle + 0.5 * shift * thickness));
+    borne.moment += cell.moment() + from_middle * cell.normal_force();
+    borne.force += cell.normal_force();
+    EXPECT_NEAR((cell.stored() + cell.dissipated()) / cell.work(), 1, 2e-3);
+  }
+  const double full = held * yield.yield_stress * thickness;
+  return {borne.moment / (0.25 * full * thickness), borne.force / full};
+}
+
+TEST_P(PlasticBending, WallsOfSeveralCellsStopAtThePlasticMomentToo)
+{
+  for (const int cells : {1, 2, 4, 8})
+    EXPECT_NEAR(bear(GetParam(), cells, 0).moment, 1, 0.01) << cells << " cells";
+}
+
+/// A section that yields all through on both sides of that line.
+TEST_P(PlasticBending, WallsThatAreDrawnBearLessMoment)
+{
+  for (const int cells : {1, 2, 3})
+    for (const double shift : {0.3, 0.6, 0.9}) {
+      const Borne borne = bear(GetParam(), cells, shift);
+      EXPECT_NEAR(borne.force, shift, 0.02) << cells << " cells";
+      EXPECT_NEAR(borne.moment, 1 - shift * shift, 0.02) << cells << " cells";
+    }
 }
 
 std::unique_ptr<Law<2>> hencky(PlaneAssumption plane)

@@ -271,6 +271,51 @@ TEST_P(PlasticBrick, TwistedAsAPlateStopsAtThePlasticMoment)
   EXPECT_NEAR(moment / (yield.yield_stress / std::sqrt(3.0) * size[2] * size[2] / 4), 1, 5e-3);
 }
 
+/// Bricks of a wall that is bent around a line away from its middle, each drawn by as much as it is
+/// away from there, and led so that they are free to get thinner.
+TEST_P(PlasticBrick, WallsOfSeveralBricksBearWhatASectionDoesThatYieldsAllThrough)
+{
+  constexpr YieldConstants soft{1e6, 0};
+  const double held = 2 / std::sqrt(3.0) * soft.yield_stress;
+  for (int across = 0; across < 3; ++across)
+    for (const int bricks : {1, 2, 4})
+      for (const double shift : {0.0, 0.6}) {
+        const int fibre = (across + 1) % 3;
+        const double thickness = bricks * size[across], width = size[(across + 2) % 3];
+        const double curvature = 40 * held / wall.youngs_modulus / thickness;
+        double moment = 0, force = 0;
+        for (int k = 0; k < bricks; ++k) {
+          LedBrick brick(GetParam() == hencky ? make_hencky_solid(wall, density, soft)
+                                              : make_hypoelastic_solid(wall, density, soft),
+                         density, size);
+          const double from_middle = (k + 0.5) * size[across] - 0.5 * thickness;
+          const double last = curvature * (from_middle + 0.5 * shift * thickness);
+          double thinner = 0;
+          const auto end = [&](int axis) {  // N, on the upper end
+            double sum = 0;
+            for (int c = 0; c < 8; ++c)
+              if (c >> axis & 1) sum -= brick.force()(axis, c);
+            return sum;
+          };
+          for (int step = 1; step <= 2 * steps; ++step) {
+            const double so_far = double(step) / (2 * steps);
+            thinner -= 0.5 * end(across) * size[across] / size.prod() / wall.wave_modulus();
+            BrickPlaces places = Curved{across, curvature * so_far, 0, 0}.places();
+            places.row(fibre) += last * so_far * at_rest().row(fibre);
+            places.row(across) += thinner * at_rest().row(across);
+            ASSERT_TRUE(brick.lead_to(places));
+          }
+          const double drawn = end(fibre);
+          moment += std::abs(moments(brick, across)[0]) + from_middle * drawn;
+          force += drawn;
+        }
+        EXPECT_NEAR(moment / (held * thickness * thickness / 4 * width), 1 - shift * shift, 0.02)
+            << bricks << " bricks across axis " << across;
+        EXPECT_NEAR(force / (held * thickness * width), shift, 0.02)
+            << bricks << " bricks across axis " << across;
+      }
+}
+
 INSTANTIATE_TEST_SUITE_P(Laws, PlasticBrick, ::testing::Values(hencky, hypoelastic),
                          [](const auto& info) {
                            return std::string(info.param == hencky ? "Hencky" : "Hypoelastic");

@@ -1,0 +1,143 @@
+#pragma once
+/// Von Mises flow of cells of the plane that bend: stress at the centre and moments yield together.
+///
+/// A wall whose fibres yield all through bears a moment m (over the plastic one) beside a stress n
+/// along the fibres (over the yield stress) with m + n^2 = 1: the yield surface of shells (Ilyushin
+/// 1948), here in the form
+///   Q = q^2 + s^2 / 2 + sqrt(s^4 / 4 + g^2 s^2) <= s_Y^2
+/// (Ivanov 1967) with s the von Mises stress of fibres that bear the moments and g the part of q
+/// along the fibres. Beside a stress p that strains fibres along themselves not at all it leaves
+/// m^2 + p^2 = 1, as if that were the same in all of them: up to 6.5 % less than they could bear.
+/// Flow is normal to it: walls of two cells, or four, stop at the plastic moment as those of one
+/// do.
+/// A cell whose fibres all yield along themselves would then bend at no cost, and rounding would
+/// grow: where moments vanish the surface is rounded, with
+///   sqrt((s^2 / 2 + e)^2 + g^2 s^2) - e,  e = rounded_vertex s_Y^2
+/// for the root, which adds up to half of rounded_vertex to what a wall bears.
+
+#include <mpm/materials/bending.hpp>
+#include <mpm/materials/cutting_planes.hpp>
+#include <mpm/materials/elastic_constants.hpp>
+
+#include <cmath>
+
+namespace mpm {
+
+/// Along the middle of a cell, from the columns of bending.hpp: cosine and sine of twice the angle
+/// by which its axes have turned.
+struct FibreDirection {
+  Lanes cosine, sine;
+
+  explicit FibreDirection(const double* bending)
+  {
+    const auto f = [bending](int k) {
+      return load(bending + (bending_stresses<2> + k) * lane_count);
+    };
+    const Lanes x = f(0) + f(3), y = f(1) - f(2);
+    const Lanes xx = x * x, yy = y * y, inverse = 1.0 / (xx + yy);
+    cosine = (xx - yy) * inverse;
+    sine = 2.0 * x * y * inverse;
+  }
+};
+
+/// Stresses of a cell in parts, Pa. The squares of the first three add up to that of the von Mises
+/// stress at the centre.
+struct BentStress {
+  Lanes mean;     ///< of both normal stresses (plane stress), or 3 times that of their deviators
+  Lanes along;    ///< sqrt(3/4) times their difference, seen from the fibres
+  Lanes shear;    ///< sqrt(3) times
+  Lanes bending;  ///< s
+};
+
+class BentFlow {
+ public:
+  BentFlow(PlaneAssumption plane, const IsotropicConstants& elastic, const YieldConstants& yield)
+      : of_fibres_(plane == PlaneAssumption::strain ? std::sqrt(0.75) : 1.0),
+        along_mean_(plane == PlaneAssumption::strain ? 0.0 : 0.5),
+        along_difference_(plane == PlaneAssumption::strain ? 1.0 : std::sqrt(0.75)),
+        shear_modulus_(3 * elastic.shear_modulus()),
+        mean_modulus_(plane == PlaneAssumption::strain
+                          ? shear_modulus_
+                          : elastic.youngs_modulus / (2 * (1 - elastic.poisson_ratio))),
+        // Of the energy M (V0 h^2 / 12) b^2 / 2 with s = of_fibres M h b / 3.
+        bending_modulus_(elastic.bending_modulus(plane) * of_fibres_ * of_fibres_ * 4 / 3),
+        yield_(yield)
+  {
+  }
+
+  /// Von Mises stress of fibres, from the columns of bending.hpp. Those of the plane are held along
+  /// z in plane strain: their plastic moment is 2 / sqrt(3) times that of uniaxial stress.
+  Lanes bending(const double* columns) const
+  {
+    const Lanes x = load(columns), y = load(columns + lane_count);
+    return of_fibres_ * stdx::sqrt(x * x + y * y);
+  }
+
+  /// From the trial stress t to the yield surface. `plastic_strain`: before the step.
+  BentReturn operator()(BentStress& t, const Lanes& plastic_strain) const
+  {
+    return cut_back(*this, t, yield_, 1e-6 * shear_modulus_, plastic_strain);
+  }
+
+  // For cut_back:
+  struct Found {
+    Lanes squared;        ///< Q
+    Lanes g, half, root;  ///< half of s^2, rounded; the root in Q
+  };
+  Found at(const BentStress& t, const Lanes& rounded) const
+  {
+    const Lanes g = along_mean_ * t.mean + along_difference_ * t.along;
+    const Lanes s = t.bending, half = 0.5 * s * s + rounded;
+    const Lanes root = stdx::sqrt(half * half + g * g * s * s);
+    return {
+        t.mean * t.mean + t.along * t.along + t.shear * t.shear + 0.5 * s * s + (root - rounded), g,
+        half, root};
+  }
+  BentStress normal(const BentStress& t, const Found& found, const Lanes& over) const
+  {
+    const Lanes of_root = 0.5 / found.root, g = found.g;
+    const Lanes more = g * t.bending * t.bending * of_root;
+    return {(t.mean + along_mean_ * more) * over, (t.along + along_difference_ * more) * over,
+            t.shear * over, t.bending * (0.5 + (found.half + g * g) * of_root) * over};
+  }
+  Lanes stiffness(const BentStress& n) const
+  {
+    return mean_modulus_ * n.mean * n.mean +
+           shear_modulus_ * (n.along * n.along + n.shear * n.shear) +
+           bending_modulus_ * n.bending * n.bending;
+  }
+  void flow(BentStress& t, const BentStress& n, const Lanes& amount) const
+  {
+    t.mean -= mean_modulus_ * amount * n.mean;
+    t.along -= shear_modulus_ * amount * n.along;
+    t.shear -= shear_modulus_ * amount * n.shear;
+    t.bending = stdx::max(t.bending - bending_modulus_ * amount * n.bending, Lanes(0.0));
+  }
+  Lanes work(const BentStress& t, const BentStress& trial) const
+  {
+    return t.mean * (trial.mean - t.mean) / mean_modulus_ +
+           (t.along * (trial.along - t.along) + t.shear * (trial.shear - t.shear)) /
+               shear_modulus_ +
+           t.bending * (trial.bending - t.bending) / bending_modulus_;
+  }
+
+  /// What is taken of the moments, into the columns of bending.hpp.
+  static void take(const Lanes& before, const Lanes& after, double* columns)
+  {
+    const Lanes share = (before - after) / stdx::max(before, Lanes(least));
+    for (int j = 0; j < bending_stresses<2>; ++j) {
+      double* stress = columns + j * lane_count;
+      store(share * load(stress), stress);
+    }
+  }
+
+ private:
+  static constexpr double least = 1e-30;  ///< Pa, against division by zero
+
+  double of_fibres_;                      ///< of the von Mises stress in that along fibres
+  double along_mean_, along_difference_;  ///< g
+  double shear_modulus_, mean_modulus_, bending_modulus_;  ///< Pa, of the parts of BentStress
+  YieldConstants yield_;
+};
+
+}  // namespace mpm

@@ -1,0 +1,255 @@
+// The common yield surface of stress at the centre and moments, in the plane and in space: beside
+// that of fibres that yield all through, and normality.
+#include <mpm/materials/bent_flow.hpp>
+#include <mpm/materials/brick_flow.hpp>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace mpm {
+namespace {
+
+const IsotropicConstants elastic{10e9, 0.3};
+constexpr double limit = 50e6;
+
+/// mean, along, shear, bending
+using Parts = std::array<double, 4>;
+
+BentStress lanes(const Parts& t)
+{
+  return {t[0], t[1], t[2], t[3]};
+}
+Parts parts(const BentStress& t)
+{
+  return {t.mean[0], t.along[0], t.shear[0], t.bending[0]};
+}
+Parts moduli(PlaneAssumption plane)
+{
+  const double shear = 3 * elastic.shear_modulus(), e = elastic.youngs_modulus,
+               nu = elastic.poisson_ratio;
+  if (plane == PlaneAssumption::strain) return {shear, shear, shear, e / (1 - nu * nu)};
+  return {e / (2 * (1 - nu)), shear, shear, e * 4 / 3};
+}
+
+class BentFlowOf : public ::testing::TestWithParam<PlaneAssumption> {
+ protected:
+  BentFlow flow(double hardening = 0) const { return {GetParam(), elastic, {limit, hardening}}; }
+  Parts any()
+  {
+    Parts t;
+    for (double& part : t) part = uniform_(random_);
+    t[3] = std::abs(t[3]);
+    return t;
+  }
+  /// On the yield surface: drawn towards the origin by bisection.
+  Parts bound(const Parts& direction) const
+  {
+    double inside = 0, outside = 10 * limit;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (inside + outside);
+      Parts t = direction;
+      for (double& part : t) part *= middle;
+      BentStress stress = lanes(t);
+      (flow()(stress, 0.0).any ? outside : inside) = middle;
+    }
+    Parts t = direction;
+    for (double& part : t) part *= inside;
+    return t;
+  }
+  std::mt19937 random_{7};
+  std::uniform_real_distribution<double> uniform_{-1, 1};
+};
+
+/// Ilyushin 1948: stresses of a section whose fibres are strained at a rate of g + kappa y along
+/// themselves and p otherwise.
+TEST_P(BentFlowOf, IsThatOfASectionWhoseFibresYieldAllThrough)
+{
+  const double root = std::sqrt(0.75);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double g = uniform_(random_), p = uniform_(random_), kappa = 3 * uniform_(random_);
+    constexpr int fibres = 2000;
+    double along = 0, other = 0, bending = 0;
+    for (int k = 0; k < fibres; ++k) {
+      const double y = (k + 0.5) / fibres * 2 - 1, rate = g + kappa * y, size = std::hypot(rate, p);
+      along += rate / size / fibres;
+      other += p / size / fibres;
+      bending += 2 * rate / size * y / fibres;  // over that of fibres that yield
+    }
+    // What lies along the fibres is, in plane stress, part of the mean as well.
+    const bool strain = GetParam() == PlaneAssumption::strain;
+    const Parts direction = strain ? Parts{0, along, other, std::abs(bending)}
+                                   : Parts{0.5 * along, root * along, other, std::abs(bending)};
+    const Parts found = bound(direction);
+    const double ratio = std::hypot(found[0], found[1], found[2]) /
+                         (limit * std::hypot(direction[0], direction[1], direction[2]));
+    EXPECT_GT(ratio, 0.93) << g << " " << p << " " << kappa;
+    EXPECT_LT(ratio, 1 + 0.5 * rounded_vertex) << g << " " << p << " " << kappa;
+    const Parts straight = bound(strain ? Parts{0, along, 0, 1 - along * along}
+                                        : Parts{0.5 * along, root * along, 0, 1 - along * along});
+    EXPECT_NEAR(straight[3] / (limit * (1 - along * along)), 1, 0.6 * rounded_vertex);
+  }
+}
+
+/// (t - t*) C^-1 (t_trial - t) >= 0 for every stress t* that is allowed.
+TEST_P(BentFlowOf, DissipatesTheMost)
+{
+  const Parts modulus = moduli(GetParam());
+  for (int trial = 0; trial < 200; ++trial) {
+    Parts t = bound(any());
+    const Parts step = any();
+    for (std::size_t k = 0; k < 4; ++k) t[k] += 1e-4 * limit * step[k];
+    t[3] = std::max(t[3], 0.0);
+    BentStress stress = lanes(t);
+    const BentReturn flowed = flow()(stress, 0.0);
+    if (!flowed.any) continue;
+    const Parts now = parts(stress);
+    EXPECT_GT(flowed.plastic_strain[0], 0);
+    for (int other = 0; other < 200; ++other) {
+      const Parts allowed = bound(any());
+      double work = 0, size = 0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        work += (now[k] - allowed[k]) * (t[k] - now[k]) / modulus[k];
+        size += std::abs(t[k] - now[k]) / modulus[k];
+      }
+      EXPECT_GT(work, -1e-3 * limit * size);
+    }
+  }
+}
+
+/// Along a path of small steps, as the law takes them.
+TEST_P(BentFlowOf, EndsOnTheYieldSurfaceAndHardens)
+{
+  constexpr double hardening = 1e9;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Parts step = any();
+    Parts t{};
+    double strain = 0;
+    for (int k = 0; k < 2000; ++k) {
+      for (std::size_t part = 0; part < 4; ++part) t[part] += 4e-3 * limit * step[part];
+      BentStress stress = lanes(t);
+      strain += flow(hardening)(stress, strain).plastic_strain[0];
+      t = parts(stress);
+    }
+    ASSERT_GT(strain, 1e-3);
+    for (const double more : {0.999, 1.001}) {
+      Parts scaled = t;
+      for (double& part : scaled) part *= more;
+      BentStress stress = lanes(scaled);
+      EXPECT_EQ(flow(hardening)(stress, strain).any, more > 1);
+    }
+  }
+}
+
+TEST_P(BentFlowOf, LeavesWhatDoesNotYield)
+{
+  const Parts t{0.1 * limit, -0.3 * limit, 0.2 * limit, 0.4 * limit};
+  BentStress stress = lanes(t);
+  EXPECT_FALSE(flow()(stress, 0.0).any);
+  EXPECT_EQ(parts(stress), t);
+}
+
+INSTANTIATE_TEST_SUITE_P(Planes, BentFlowOf,
+                         ::testing::Values(PlaneAssumption::strain, PlaneAssumption::stress),
+                         [](const auto& info) {
+                           return info.param == PlaneAssumption::strain ? "Strain" : "Stress";
+                         });
+
+// In space.
+
+using Matrix = Eigen::Matrix3d;
+
+struct Brick {
+  Matrix deviator, deformation;
+  std::array<double, 12> bending;
+};
+
+/// One step of flow of `brick`.
+BentReturn flow_of(Brick& brick)
+{
+  const BrickFlow flow(elastic, {limit, 0});
+  alignas(lane_alignment) double columns[bending_columns<3> * lane_count];
+  for (int k = 0; k < 12; ++k)
+    store(Lanes(brick.bending[std::size_t(k)]), columns + k * lane_count);
+  for (int k = 0; k < 9; ++k)
+    store(Lanes(brick.deformation.data()[k]), columns + (12 + k) * lane_count);
+  const Matrix& d = brick.deviator;
+  Symmetric deviator{d(0, 0), d(1, 1), d(2, 2), d(0, 1), d(1, 2), d(0, 2)};
+  const BentReturn result = flow(deviator, columns, 0.0);
+  brick.deviator << deviator.xx[0], deviator.xy[0], deviator.xz[0], deviator.xy[0], deviator.yy[0],
+      deviator.yz[0], deviator.xz[0], deviator.yz[0], deviator.zz[0];
+  for (std::size_t k = 0; k < 12; ++k) brick.bending[k] -= columns[k * std::size_t(lane_count)];
+  return result;
+}
+
+class BrickFlowTest : public ::testing::Test {
+ protected:
+  Brick any(double size)
+  {
+    Brick brick;
+    const Matrix a = size * Matrix::NullaryExpr([&] { return uniform_(random_); });
+    brick.deviator = 0.5 * (a + a.transpose());
+    brick.deviator.diagonal().array() -= brick.deviator.trace() / 3;
+    for (double& part : brick.bending) part = 0.5 * size * uniform_(random_);
+    brick.deformation =
+        Matrix::Identity() + 0.3 * Matrix::NullaryExpr([&] { return uniform_(random_); });
+    return brick;
+  }
+  std::mt19937 random_{11};
+  std::uniform_real_distribution<double> uniform_{-1, 1};
+};
+
+TEST_F(BrickFlowTest, TurnsWithTheBrick)
+{
+  for (int trial = 0; trial < 50; ++trial) {
+    Brick still = any(3 * limit), turned = still;
+    const Matrix turn =
+        Eigen::AngleAxisd(3 * uniform_(random_), Vec<3>::Random().normalized()).toRotationMatrix();
+    turned.deviator = turn * still.deviator * turn.transpose();
+    turned.deformation = turn * still.deformation;
+    const double strain = flow_of(still).plastic_strain[0];
+    EXPECT_NEAR(flow_of(turned).plastic_strain[0], strain, 1e-9 * strain + 1e-18);
+    EXPECT_LT((turned.deviator - turn * still.deviator * turn.transpose()).norm(), 1e-9 * limit);
+    for (std::size_t k = 0; k < 12; ++k)
+      EXPECT_NEAR(turned.bending[k], still.bending[k], 1e-9 * limit);
+  }
+}
+
+/// A plate along x and y that is drawn and bent in one way, whatever it is: m + n^2 = 1, and
+/// m^2 + p^2 = 1 of what is not.
+TEST_F(BrickFlowTest, OfAPlateIsThatOfASectionWhoseFibresYieldAllThrough)
+{
+  for (const double n : {0.0, 0.2, 0.5, 0.8}) {
+    // Along x: stress s has the deviator s (2, -1, -1) / 3, and parts s / 2 and sqrt(3/4) s.
+    const Vec<3> drawn(2.0 / 3, -1.0 / 3, -1.0 / 3);
+    for (const double more : {0.999, 1 + 0.6 * rounded_vertex}) {
+      Brick brick{more * n * limit * Matrix(drawn.asDiagonal()), Matrix::Identity(), {}};
+      brick.bending[6] = more * (1 - n * n) * limit * 0.5;
+      brick.bending[7] = more * (1 - n * n) * limit * std::sqrt(0.75);
+      EXPECT_EQ(flow_of(brick).any, more > 1) << n;
+      Brick sheared{Matrix::Zero(), Matrix::Identity(), brick.bending};
+      sheared.deviator(0, 2) = sheared.deviator(2, 0) = more * n * limit / std::sqrt(3.0);
+      sheared.bending = {};
+      sheared.bending[6] = more * std::sqrt(1 - n * n) * limit * 0.5;
+      sheared.bending[7] = more * std::sqrt(1 - n * n) * limit * std::sqrt(0.75);
+      EXPECT_EQ(flow_of(sheared).any, more > 1) << n;
+    }
+  }
+}
+
+TEST_F(BrickFlowTest, EndsOnTheYieldSurface)
+{
+  for (int trial = 0; trial < 100; ++trial) {
+    Brick brick = any(3 * limit);
+    if (!flow_of(brick).any) continue;
+    Brick again = brick;
+    EXPECT_LT(flow_of(again).plastic_strain[0], 1e-6);
+    EXPECT_LT((again.deviator - brick.deviator).norm(), 1e-6 * limit);
+  }
+}
+
+}  // namespace
+}  // namespace mpm
