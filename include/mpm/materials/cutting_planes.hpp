@@ -16,8 +16,10 @@ inline constexpr double rounded_vertex = 0.01;
 /// over the flow since the trial, per volume. `least_stiffness`: below it there is no stress to
 /// flow. `plastic_strain`: before the step. Without flow `t` stays.
 template <class Surface, class Stress>
-BentReturn cut_back(const Surface& surface, Stress& t, const YieldConstants& yield,
-                    double least_stiffness, const Lanes& plastic_strain)
+[[gnu::always_inline]] inline BentReturn cut_back(const Surface& surface, Stress& t,
+                                                  const YieldConstants& yield,
+                                                  double least_stiffness,
+                                                  const Lanes& plastic_strain)
 {
   constexpr int most_iterations = 30;
   // Of the next to last step: the last one squares it, and no lane hangs on its neighbours.
