@@ -32,6 +32,7 @@ bool OverlapContact<Dim>::can_meet(LocalIndex own, LocalIndex other) const
 template <int Dim>
 void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
 {
+  if (work_then_.empty()) work_then_ = counted_work();
   skin_ = skin;
   places_then_.clear();
   for (LocalIndex node = 0; node < nodes.size(); ++node)
@@ -57,6 +58,7 @@ void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
   list_pairs(skin);
   keep_needed(std::move(peers));
   // Nothing is known of these pairs.
+  near_.clear();
   found_.find({});
   pressing_.clear();
   touches_.clear();

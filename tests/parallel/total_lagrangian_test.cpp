@@ -145,6 +145,15 @@ class Ring {
   using Found = SumsOfBodies<2>;
   /// Collective.
   Found found() { return {comm_, *stepper_, cells_}; }
+  /// What this rank counts, by grid cell.
+  std::vector<double> work() const
+  {
+    std::vector<double> work(std::size_t(grid_cells.prod()));
+    stepper_->visit_work([&](const IndexVec<2>& at, double amount) {
+      work[std::size_t(at[0] + grid_cells[0] * at[1])] += amount;
+    });
+    return work;
+  }
   double mass() const { return double(cells_) * density * size.prod(); }
 
  private:
@@ -247,6 +256,8 @@ TEST(TotalLagrangian, TakesUpWhatWasSavedToTheLastBit)
   archive.start_loading();
   other.stepper().archive(archive);
   EXPECT_TRUE(archive.unread().empty());
+  // Though one has listed its pairs long ago, and the other just now.
+  EXPECT_EQ(other.work(), run.work());
   run.advance(430);
   other.advance(430);
   const Ring::Found one = run.found(), two = other.found();

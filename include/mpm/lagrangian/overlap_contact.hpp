@@ -129,6 +129,7 @@ class OverlapContact final : public SelfContact<Dim> {
   void list_close();
   void find_overlaps();
   void list_touches();
+  std::vector<double> counted_work() const;
   void take_motion(const NodeFields<Dim>& fields);
 
   /// A listed pair whose boxes may meet before one has gone far.
@@ -229,7 +230,9 @@ class OverlapContact final : public SelfContact<Dim> {
   std::vector<LocalIndex> first_touch_, next_touch_;
   std::vector<double> motion_;         ///< of the cells' corners, with friction
   std::vector<Vec<Dim>> places_then_;  ///< of nodes, m, when the pairs were found
-  double energy_ = 0;                  ///< J, of this rank's cells
+  /// As last counted, while pairs have been found and not measured yet.
+  std::vector<double> work_then_;
+  double energy_ = 0;  ///< J, of this rank's cells
   double kappa_;
   /// Of cells that touch, the derivative of the energy by their volume, with its sign turned, Pa or
   /// N/m.
