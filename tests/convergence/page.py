@@ -40,7 +40,7 @@ What the tables say:
 - the cells of the total Lagrangian step bend a wall of two locations along the grid with 0.6 % of error and
   close a gap when it is closed; walls across the grid have the stairs of their locations, which cells feel
   more than functions that reach over them: moduli of honeycombs come from below, as fast as gimp's from
-  above; plastic collapse is within 3 to 5 % at four cells per wall;
+  above; plastic collapse is within 2 to 4 % at four cells per wall;
 - lumens close 0.7 to 2 cells too early, whatever the grid: beyond full density the stress is 30 % too
   high with walls of four cells, and 1.7 % with sixteen (gimp).
 """
