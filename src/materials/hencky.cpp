@@ -83,7 +83,7 @@ class Hencky final : public Law<2> {
       for (int k = 0; k < blocks; ++k) {
         double* s = state + k * columns * lane_count;
         Strain e = trial_strain(s, gradient + k * 4 * lane_count, dt);
-        return_bent(s, e, bending + k * bending_columns<2> * lane_count);
+        return_to_yield(s, e, bending + k * bending_columns<2> * lane_count);
         put_force_stress(s, e, force_stress + k * 3 * lane_count);
       }
   }
@@ -219,7 +219,7 @@ class Hencky final : public Law<2> {
   }
 
   /// `bending`: as in bending.hpp.
-  void return_bent(double* s, Strain& e, double* bending) const
+  void return_to_yield(double* s, Strain& e, double* bending) const
   {
     const FibreDirection fibres(bending);
     const double of_difference = std::sqrt(3.0) * mu_;

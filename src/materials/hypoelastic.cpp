@@ -90,10 +90,9 @@ class Hypoelastic final : public Law<2> {
   void update(double* state, int blocks, const double* gradient, double dt,
               double* force_stress) const override
   {
-    for (int k = 0; k < blocks; ++k) {
+    for (int k = 0; k < blocks; ++k)
       update_block(state + k * columns * lane_count, gradient + k * 4 * lane_count, dt,
                    force_stress + k * 3 * lane_count);
-    }
   }
 
   BendingModuli<2> bending_moduli() const override
@@ -183,9 +182,8 @@ class Hypoelastic final : public Law<2> {
     store(v0 * tau.xy, out + 2 * lane_count);
   }
 
-  /// `bending`: as in bending.hpp, of cells that bend.
-  void update_block(double* s, const double* l, double dt, double* out,
-                    double* bending = nullptr) const
+  template <class... Bent>
+  void update_block(double* s, const double* l, double dt, double* out, Bent... bending) const
   {
     // dt L, and the midpoint gradient dt L (I + dt L / 2)^-1.
     const Lanes axx = dt * load(l), ayx = dt * load(l + lane_count),
@@ -215,24 +213,14 @@ class Hypoelastic final : public Law<2> {
     if constexpr (plane_strain) {
       const auto& z = stiffness_.out_of_plane;
       Lanes zz = at(s, third) + z(0) * d.xx + z(1) * d.yy + z(2) * shear;
-      if constexpr (Plastic) {
-        if (bending)
-          return_bent(s, t, zz, bending);
-        else
-          return_radially(s, t, zz);
-      }
+      if constexpr (Plastic) return_to_yield(s, t, zz, bending...);
       put(zz, s, third);
     } else {
       const auto& z = stiffness_.thickness_strain;
       const Symmetric old = stress(s);
       const Lanes trial = t.xx + t.yy;
-      if constexpr (Plastic) {
-        Lanes none = 0.0;
-        if (bending)
-          return_bent(s, t, none, bending);
-        else
-          return_in_plane_stress(s, t);
-      }
+      Lanes zz = 0.0;
+      if constexpr (Plastic) return_to_yield(s, t, zz, bending...);
       // Elastic part from the stress that was really gained, plastic part -(dep_xx + dep_yy).
       const double compliance = (1 - elastic_.poisson_ratio) / elastic_.youngs_modulus;
       put(at(s, third) + z(0) * (t.xx - old.xx) + z(1) * (t.yy - old.yy) + z(2) * (t.xy - old.xy) -
@@ -245,6 +233,13 @@ class Hypoelastic final : public Law<2> {
     put_force_stress(s, Rotation(nxx, nyx, nxy, nyy), t, out);
   }
 
+  void return_to_yield(double* s, Symmetric& t, Lanes& zz) const
+  {
+    if constexpr (plane_strain)
+      return_radially(s, t, zz);
+    else
+      return_in_plane_stress(s, t);
+  }
   void return_radially(double* s, Symmetric& t, Lanes& zz) const
   {
     const Lanes p = (t.xx + t.yy + zz) / 3.0;
@@ -271,7 +266,7 @@ class Hypoelastic final : public Law<2> {
   }
 
   /// Fibres lie along the axes of the frame that turns with the cell. `bending`: as in bending.hpp.
-  void return_bent(double* s, Symmetric& t, Lanes& zz, double* bending) const
+  void return_to_yield(double* s, Symmetric& t, Lanes& zz, double* bending) const
   {
     const Lanes p = plane_strain ? (t.xx + t.yy + zz) / 3.0 : Lanes(0.0);
     const double of_mean = plane_strain ? 3 : 1, of_difference = std::sqrt(0.75),

@@ -42,10 +42,11 @@ class BrickFlow {
   {
     // Of energies per volume: E / (1 - nu) / 12 and 2 G / 12 times the squares of what outermost
     // fibres are strained by, E / 18 of what they are warped by.
+    const BendingModuli<3> moduli(elastic);
     for (std::size_t k = 0; k < modulus_.size(); ++k)
-      modulus_[k] = k >= 9       ? elastic.youngs_modulus * 16 / 9
-                    : k % 3 == 0 ? elastic.youngs_modulus / (1 - elastic.poisson_ratio) * 2 / 3
-                                 : 4 * elastic.shear_modulus();
+      modulus_[k] = k >= 9       ? moduli.fibres * 16 / 9
+                    : k % 3 == 0 ? moduli.alike * 2 / 3
+                                 : moduli.opposite * 2;
   }
 
   /// From the trial stress to the yield surface. `deviator`: of the stress at the centre, Pa, along
