@@ -50,7 +50,7 @@ std::vector<std::filesystem::path> files_ending(const std::filesystem::path& fol
 }  // namespace
 
 void ResultsFolder::start_anew(std::span<const std::filesystem::path> inputs,
-                               const std::string& effective_scene, bool overwrite) const
+                               const std::string& effective_scene, bool overwrite)
 {
   for (const std::filesystem::path& input : inputs)
     for (const char* name : files_of_a_run) {
@@ -63,6 +63,7 @@ void ResultsFolder::start_anew(std::span<const std::filesystem::path> inputs,
             "--output.",
             place.string(), name));
     }
+  occupy();
   if (holds_a_run()) {
     if (!overwrite)
       throw InputError(fmt::format(
@@ -71,14 +72,19 @@ void ResultsFolder::start_anew(std::span<const std::filesystem::path> inputs,
           folder_.string()));
     clear();
   }
-  output::make_directory(folder_);
 }
 
-void ResultsFolder::go_on() const
+void ResultsFolder::go_on()
 {
-  output::make_directory(folder_);
+  occupy();
   remove(folder_ / "summary.json");
   clear_report();
+}
+
+void ResultsFolder::occupy()
+{
+  output::make_directory(folder_);
+  lock_.emplace(folder_);
 }
 
 bool ResultsFolder::holds_a_run() const

@@ -68,15 +68,18 @@ template <int Dim>
 class FolderWriter final : public Observer<Dim> {
  public:
   FolderWriter(const Preparation<Dim>& preparation, const RunRequest& request,
-               const std::string& effective_scene)
-      : preparation_(preparation), request_(request), effective_scene_(effective_scene)
+               ResultsFolder& results, const std::string& effective_scene)
+      : preparation_(preparation),
+        request_(request),
+        results_(results),
+        effective_scene_(effective_scene)
   {
   }
   void start(const HistoryKind&) override
   {
     on_rank_zero(preparation_.comm, [&] {
       const std::filesystem::path& folder = request_.results;
-      if (request_.restart) ResultsFolder(folder).go_on();
+      if (request_.restart) results_.go_on();
       output::replace_file(folder / "scene.yaml", effective_scene_);
       micrograph::write_preview(preparation_.specimen, folder / "specimen.png");
       if (!asks_for_snapshots(preparation_.scene))
@@ -87,6 +90,7 @@ class FolderWriter final : public Observer<Dim> {
  private:
   const Preparation<Dim>& preparation_;
   const RunRequest& request_;
+  ResultsFolder& results_;
   const std::string& effective_scene_;
 };
 
@@ -182,7 +186,7 @@ std::unique_ptr<Archive> take_up(const Preparation<Dim>& preparation, const RunR
 /// Nothing in the folder is of another run.
 template <int Dim>
 Continuation begin_in_folder(const Preparation<Dim>& preparation, const RunRequest& request,
-                             const std::string& effective_scene)
+                             ResultsFolder& results, const std::string& effective_scene)
 {
   Continuation continuation{.results = request.results, .time_limit = request.time_limit};
   agree(preparation.comm,
@@ -193,7 +197,7 @@ Continuation begin_in_folder(const Preparation<Dim>& preparation, const RunReque
     on_rank_zero(preparation.comm, [&] {
       std::vector<std::filesystem::path> inputs = request.pictures;
       inputs.push_back(request.scene);
-      ResultsFolder(request.results).start_anew(inputs, effective_scene, request.overwrite);
+      results.start_anew(inputs, effective_scene, request.overwrite);
     });
   return continuation;
 }
@@ -206,8 +210,9 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const RunRequest& r
   const MPI_Comm comm = preparation.comm;
   const std::filesystem::path& folder = request.results;
   const std::string effective_scene = effective_scene_text(preparation.effective_scene());
-  Continuation continuation = begin_in_folder(preparation, request, effective_scene);
-  FolderWriter<Dim> writer(preparation, request, effective_scene);
+  ResultsFolder results(folder);
+  Continuation continuation = begin_in_folder(preparation, request, results, effective_scene);
+  FolderWriter<Dim> writer(preparation, request, results, effective_scene);
   HistoryWriter<Dim> history(comm, folder);
   ProgressWriter<Dim> progress(comm, request.quiet);
   FailureSnapshot<Dim> failure(preparation, folder);

@@ -3,13 +3,18 @@ without being asked for, and nothing of two runs is mixed."""
 import os
 import pathlib
 import shutil
+import signal
+import subprocess
+import time
 import unittest
 
-from program import ProgramTest, mpm_par, set_options
-from same_results import all_of
+from program import ProgramTest, mpm_par, seconds, set_options
+from same_results import all_of, expect_same
 
 WHOLE = ["output.history_lines=4"]
 QUICK = [*WHOLE, "steps=40"]
+# Long enough to be met on its way.
+LASTING = ["grid.cells=[64, 8]", "output.history_lines=50", "output.checkpoints={steps: 20}"]
 OF_A_RUN = ["exact_solution.csv", "history.csv", "report.html", "scene.yaml", "specimen.png", "summary.json"]
 
 
@@ -91,6 +96,45 @@ class ResultsFolder(ProgramTest):
         history = (self.results_of_first / "history.csv").read_bytes()
         self.good("--overwrite", file=self.results_of_first / "scene.yaml", settings=[])
         self.assertEqual((self.results_of_first / "history.csv").read_bytes(), history)
+
+    def start(self):
+        """A run that is on its way."""
+        run = subprocess.Popen([os.environ["MPM_PAR"], self.bar, "--output", self.results_of_first,
+                                *set_options(LASTING)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.communicate)
+        self.addCleanup(run.kill)
+        end = time.monotonic() + seconds(60)
+        while not any(self.results_of_first.glob("checkpoints/*.h5")):
+            self.assertLess(time.monotonic(), end, "the run does not begin")
+            time.sleep(0.01)
+        return run
+
+    def test_a_run_has_its_folder_to_itself(self):
+        whole = self.folder / "whole"
+        self.good(output=whole, settings=LASTING)
+        run = self.start()
+        run.send_signal(signal.SIGSTOP)
+        before = all_of(self.results_of_first)
+        for words, ranks in ([], 1), (["--overwrite"], 1), (["--overwrite"], 2), (["--restart"], 2):
+            message = self.refused(*words, ranks=ranks, settings=LASTING)
+            self.assertIn(f"a run is writing there (process {run.pid} on ", message)
+            self.assertIn("Wait until it has ended, or choose another folder with --output.", message)
+        self.assertEqual(all_of(self.results_of_first), before)
+        run.send_signal(signal.SIGCONT)
+        _, errors = run.communicate(timeout=seconds(60))
+        self.assertEqual(run.returncode, 0, errors)
+        expect_same(self, whole, self.results_of_first)
+        self.assertFalse((self.results_of_first / "in_use.lock").exists())
+
+    def test_a_killed_run_has_no_folder(self):
+        for words in ["--restart"], ["--overwrite"]:
+            shutil.rmtree(self.results_of_first, ignore_errors=True)
+            run = self.start()
+            run.kill()
+            run.communicate()
+            self.assertTrue((self.results_of_first / "in_use.lock").exists())
+            self.good(*words, settings=LASTING)
+            self.assertFalse((self.results_of_first / "in_use.lock").exists())
 
     def test_a_folder_that_cannot_be_made_or_written(self):
         file = self.folder / "file"
