@@ -32,6 +32,9 @@ TEXT = Path(__file__).with_name("wood_study_page.md")
 KEPT = ("study.csv", "study.json")
 MPM_CURVE = runs.PROJECT / "build" / "mpm_curve"
 AGAIN = FOLDER / "again.json"
+LADDERS = runs.PROJECT / "docs" / "formulations" / "ladders.csv"
+PAPERS_MODULI = {"loblolly_tangential": 3.252, "poplar_tangential": 2.479, "poplar_radial": 3.731,
+                 "loblolly_radial": 2.740}  # GPa, Table 1
 RISING_LINES = ("4", "8"), ("8", "16")  # times the plateau's last stress, beside the 2 and 4 of runs
 PLASTIC_WORK, AXIAL_STRESS = "plastic_work", "axial_stress"
 FRAMES = {  # strip of four: number of its first snapshot, and of the run, from 1 on
@@ -156,22 +159,38 @@ def again():
     return {"again_opening": opening, "again_runs": str(len(record["runs"])), "again": table(heads, lines)}
 
 
+def moduli_of_ladders():
+    with open(LADDERS, newline="", encoding="utf-8") as file:
+        found = {(row["geometry"], row["method"], row["cells"]): row["modulus"] for row in csv.DictReader(file)}
+    methods = [(method, cells) for method in ("updated", "total") for cells in ("75", "150", "300")]
+    lines = []
+    for geometry, known in PAPERS_MODULI.items():
+        moduli = [f"{float(found[geometry, *of]) / 1e9:.3g}" for of in methods]
+        lines.append([geometry.replace("_", ", "), *moduli, f"{known:.3g}"])
+    return table(["modulus, GPa", *(f"{method}, {cells} cells" for method, cells in methods), "paper"], lines)
+
+
+def processor_of(study):
+    return study.record["machine"]["processor"].replace("(R)", "").removesuffix(" Processor")
+
+
 def took():
-    heads = ["study", "runs", "variant", "ranks", "run time"]
+    heads = ["study", "runs", "variant", "ranks", "run time", "processor", "program"]
     lines = []
     found = [read_study(folder) for folder in study_folders(FOLDER)]
     for study in found:
         count, elapsed, core_seconds = study_facts.cost([study])
         lines.append([study.title, str(count), "quick" if study.record["quick"] else "full",
-                      f"{core_seconds / elapsed:g}", facts.clock(elapsed)])
+                      f"{core_seconds / elapsed:g}", facts.clock(elapsed), processor_of(study),
+                      study.record["mpm_par"]["git"][:7]])
     total = study_facts.cost(found)
-    lines.append(["all", str(total[0]), "", "", facts.clock(total[1])])
+    lines.append(["all", str(total[0]), "", "", facts.clock(total[1]), "", ""])
     return table(heads, lines)
 
 
 def values():
     """What may stand in braces in wood_study_page.md."""
-    found = {"took": took()} | again()
+    found = {"took": took(), "moduli_of_ladders": moduli_of_ladders()} | again()
     for folder in study_folders(FOLDER):
         study = read_study(folder)
         for name in TABLES:
@@ -192,8 +211,6 @@ def values():
         limits = study_facts.limits(study)
         if limits:
             found[f"{folder.name}_limits"] = "\n".join(f"- {line}" for line in limits)
-        processor = study.record["machine"]["processor"].replace("(R)", "").removesuffix(" Processor")
-        found["machine"] = f"{study.record['machine']['cores']} cores of an {processor} processor"
     return found
 
 
