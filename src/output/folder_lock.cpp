@@ -35,7 +35,10 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / "in
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) continue;
     const int cause = errno;
     close();
-    if (cause != EWOULDBLOCK) return;
+    if (cause != EWOULDBLOCK) {
+      remove_file();
+      return;
+    }
     std::string holder;
     std::getline(std::ifstream(file_), holder);
     throw InputError(fmt::format(
@@ -49,9 +52,14 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / "in
 FolderLock::~FolderLock()
 {
   if (descriptor_ < 0) return;
+  remove_file();
+  close();
+}
+
+void FolderLock::remove_file() const
+{
   std::error_code stays;  // and locks nothing
   std::filesystem::remove(file_, stays);
-  close();
 }
 
 void FolderLock::close()

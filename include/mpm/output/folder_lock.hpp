@@ -18,6 +18,7 @@ class FolderLock {
 
  private:
   void close();
+  void remove_file() const;
   /// Whoever had it before may have taken the file away after it was opened here.
   bool bears_its_name() const;
   void name_holder() const;
