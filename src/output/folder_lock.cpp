@@ -69,8 +69,8 @@ void FolderLock::close()
 
 bool FolderLock::bears_its_name() const
 {
-  struct stat held {
-  }, named{};
+  struct stat held = {};
+  struct stat named = {};
   return ::fstat(descriptor_, &held) == 0 && ::stat(file_.c_str(), &named) == 0 &&
          held.st_dev == named.st_dev && held.st_ino == named.st_ino;
 }
@@ -79,8 +79,8 @@ void FolderLock::name_holder() const
 {
   const std::string holder = fmt::format("process {} on {}\n", ::getpid(), host_name());
   // Without a name it locks all the same, on a full disk too.
-  if (::ftruncate(descriptor_, 0) == 0) [[maybe_unused]]
-    const ssize_t written = ::write(descriptor_, holder.data(), holder.size());
+  if (::ftruncate(descriptor_, 0) != 0) return;
+  [[maybe_unused]] const ssize_t written = ::write(descriptor_, holder.data(), holder.size());
 }
 
 }  // namespace mpm::output

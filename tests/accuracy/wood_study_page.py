@@ -33,8 +33,7 @@ KEPT = ("study.csv", "study.json")
 MPM_CURVE = runs.PROJECT / "build" / "mpm_curve"
 AGAIN = FOLDER / "again.json"
 LADDERS = runs.PROJECT / "docs" / "formulations" / "ladders.csv"
-PAPERS_MODULI = {"loblolly_tangential": 3.252, "poplar_tangential": 2.479, "poplar_radial": 3.731,
-                 "loblolly_radial": 2.740}  # GPa, Table 1
+IN_LADDERS = "loblolly, tangential", "poplar, tangential", "poplar, radial", "loblolly, radial"
 RISING_LINES = ("4", "8"), ("8", "16")  # times the plateau's last stress, beside the 2 and 4 of runs
 PLASTIC_WORK, AXIAL_STRESS = "plastic_work", "axial_stress"
 FRAMES = {  # strip of four: number of its first snapshot, and of the run, from 1 on
@@ -138,12 +137,16 @@ def compare(results):
     AGAIN.write_text(json.dumps(record, indent=1) + "\n")
 
 
+def processor_of(record):
+    return record["machine"]["processor"].replace("(R)", "").removesuffix(" Processor")
+
+
 def again():
     """What was made again where, and how far each figure moved over all of these runs."""
     record = json.loads(AGAIN.read_text())
     named = ", ".join(f"*{title}*" for title in dict.fromkeys(run["study"] for run in record["runs"]))
     opening = (f"Of {named} {len(record['runs'])} runs were made again, on {' and '.join(record['ranks'])} "
-               f"rank{'s' * (record['ranks'] != ['1'])} of an {record['machine']['processor']}.")
+               f"rank{'s' * (record['ranks'] != ['1'])} of an {processor_of(record)}.")
     moved = {}
     for run in record["runs"]:
         for name, (first, repeated) in run["figures"].items():
@@ -163,15 +166,12 @@ def moduli_of_ladders():
     with open(LADDERS, newline="", encoding="utf-8") as file:
         found = {(row["geometry"], row["method"], row["cells"]): row["modulus"] for row in csv.DictReader(file)}
     methods = [(method, cells) for method in ("updated", "total") for cells in ("75", "150", "300")]
+    known = {run["label"]: run["known_modulus"] for run in read_study(FOLDER / "wood_rays").record["runs"]}
     lines = []
-    for geometry, known in PAPERS_MODULI.items():
-        moduli = [f"{float(found[geometry, *of]) / 1e9:.3g}" for of in methods]
-        lines.append([geometry.replace("_", ", "), *moduli, f"{known:.3g}"])
+    for wood in IN_LADDERS:
+        moduli = [found[wood.replace(", ", "_"), *of] for of in methods]
+        lines.append([wood, *(f"{float(modulus) / 1e9:.3g}" for modulus in [*moduli, known[wood]])])
     return table(["modulus, GPa", *(f"{method}, {cells} cells" for method, cells in methods), "paper"], lines)
-
-
-def processor_of(study):
-    return study.record["machine"]["processor"].replace("(R)", "").removesuffix(" Processor")
 
 
 def took():
@@ -181,7 +181,7 @@ def took():
     for study in found:
         count, elapsed, core_seconds = study_facts.cost([study])
         lines.append([study.title, str(count), "quick" if study.record["quick"] else "full",
-                      f"{core_seconds / elapsed:g}", facts.clock(elapsed), processor_of(study),
+                      f"{core_seconds / elapsed:g}", facts.clock(elapsed), processor_of(study.record),
                       study.record["mpm_par"]["git"][:7]])
     total = study_facts.cost(found)
     lines.append(["all", str(total[0]), "", "", facts.clock(total[1]), "", ""])

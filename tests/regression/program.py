@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
 import unittest
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
@@ -21,6 +22,13 @@ def mpm_par(*arguments, ranks=1, folder=None, timeout=240):
                os.environ["MPM_PAR"], *map(str, arguments)]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True,
                           timeout=seconds(timeout))
+
+
+def start(*arguments, ranks=1):
+    """A run that goes on meanwhile; on one rank without the launcher, which would stand between it and signals."""
+    command = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks)] if ranks > 1 else []
+    return subprocess.Popen([*command, os.environ["MPM_PAR"], *map(str, arguments)],
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
 def scene(name):
@@ -56,6 +64,12 @@ class ProgramTest(unittest.TestCase):
         self.folder = pathlib.Path(os.environ["MPM_SCRATCH"]) / self.id().split(".", 1)[1]
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
+
+    def wait_for(self, happens, what):
+        end = time.monotonic() + seconds(30)
+        while not happens():
+            self.assertLess(time.monotonic(), end, what)
+            time.sleep(0.01)
 
     def results(self, scene_name, *settings, ranks=1, label="results"):
         """Runs a scene that must end well; returns its folder of results, without those of an earlier run."""

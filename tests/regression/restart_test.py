@@ -1,13 +1,11 @@
 """A run that ended before its end, by a signal, the clock, a kill or a limit of steps, goes on from its
 last checkpoint with the same bits: history, snapshots and what the summary says of them."""
-import os
 import pathlib
 import signal
-import subprocess
 import time
 import unittest
 
-from program import History, ProgramTest, mpm_par, seconds, set_options, summary
+from program import History, ProgramTest, mpm_par, seconds, set_options, start, summary
 from same_results import all_of, expect_same, files_of
 
 INPUTS = pathlib.Path(__file__).parents[2] / "inputs"
@@ -86,26 +84,19 @@ class Restart(RunsToRestart):
     def test_exact_solution(self):
         self.check_goes_on(BAR, 100)
 
-    def start(self, of, folder, settings, ranks=1):
-        command = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks)] if ranks > 1 else []
+    def start(self, of, folder, settings, *words, ranks=1):
         file, fixed = of
-        return subprocess.Popen([*command, os.environ["MPM_PAR"], file, "--output", folder,
-                                 *set_options([*fixed, *settings])],
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        return start(file, "--output", folder, *words, *set_options([*fixed, *settings]), ranks=ranks)
 
     def wait_for_lines(self, folder, lines):
         history = folder / "history.csv"
-        for _ in range(3000):
-            if history.exists() and history.read_bytes().count(b"\n") > lines:
-                return
-            time.sleep(0.01)
-        self.fail("no history")
+        self.wait_for(lambda: history.exists() and history.read_bytes().count(b"\n") > lines, "no history")
 
     def test_signals(self):
         whole = {ranks: self.whole(RING, ranks, LASTING) for ranks in (1, 2)}
         for ranks, what in (1, signal.SIGTERM), (1, signal.SIGINT), (2, signal.SIGUSR1):
             folder = self.folder / f"{what.name}_{ranks}"
-            run = self.start(RING, folder, LASTING, ranks)
+            run = self.start(RING, folder, LASTING, ranks=ranks)
             self.wait_for_lines(folder, 10)
             run.send_signal(what)
             _, errors = run.communicate(timeout=seconds(60))
@@ -121,9 +112,7 @@ class Restart(RunsToRestart):
         whole, folder = self.whole(RING, 1, LASTING), self.folder / "killed"
         restart = []
         for lines in 3, 9, 15, 21:
-            run = self.start(RING, folder, [*settings], 1) if not restart else subprocess.Popen(
-                [os.environ["MPM_PAR"], RING[0], "--output", folder, *restart,
-                 *set_options([*RING[1], *settings])], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            run = self.start(RING, folder, settings, *restart)
             self.wait_for_lines(folder, lines)
             time.sleep(0.003 * lines)
             run.kill()

@@ -4,11 +4,9 @@ import os
 import pathlib
 import shutil
 import signal
-import subprocess
-import time
 import unittest
 
-from program import ProgramTest, mpm_par, seconds, set_options
+from program import ProgramTest, mpm_par, seconds, set_options, start
 from same_results import all_of, expect_same
 
 WHOLE = ["output.history_lines=4"]
@@ -99,14 +97,10 @@ class ResultsFolder(ProgramTest):
 
     def start(self):
         """A run that is on its way."""
-        run = subprocess.Popen([os.environ["MPM_PAR"], self.bar, "--output", self.results_of_first,
-                                *set_options(LASTING)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        run = start(self.bar, "--output", self.results_of_first, *set_options(LASTING))
         self.addCleanup(run.communicate)
         self.addCleanup(run.kill)
-        end = time.monotonic() + seconds(60)
-        while not any(self.results_of_first.glob("checkpoints/*.h5")):
-            self.assertLess(time.monotonic(), end, "the run does not begin")
-            time.sleep(0.01)
+        self.wait_for(lambda: any(self.results_of_first.glob("checkpoints/*.h5")), "the run does not begin")
         return run
 
     def test_a_run_has_its_folder_to_itself(self):
