@@ -12,8 +12,8 @@ namespace {
 template <int Dim>
 auto places_along(const MeshNodes<Dim>& nodes, int axis)
 {
-  return [along = nodes.along(axis)](LocalIndex node) {
-    return along[std::ptrdiff_t(node) * MeshNodes<Dim>::stride];
+  return [places = nodes.places(), axis](LocalIndex node) {
+    return places[std::ptrdiff_t(node) * MeshNodes<Dim>::stride + axis];
   };
 }
 

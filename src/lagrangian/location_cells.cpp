@@ -108,23 +108,12 @@ template <int Dim>
 {
   const LocalIndex* node = &corner_nodes_[std::size_t(block) * corners_of_cell * lane_count];
   CellCorners<Dim> at;
-  if constexpr (MeshNodes<Dim>::stride == 1) {
-    alignas(lane_alignment) double places[Dim][corners_of_cell * lane_count];
-    const double* along[Dim];
-    for (int d = 0; d < Dim; ++d) along[d] = nodes.along(d);
-    for (int k = 0; k < corners_of_cell * lane_count; ++k)
-      for (int d = 0; d < Dim; ++d) places[d][k] = along[d][node[k]];
-    for (int d = 0; d < Dim; ++d)
-      for (int c = 0; c < corners_of_cell; ++c) at.along[d][c] = column(places[d], c);
-  } else {
-    const double* places = nodes.along(0);
-    for (int c = 0; c < corners_of_cell; ++c, node += lane_count) {
-      Lanes columns[4];
-      to_columns(
-          [&](int lane) { return places + std::size_t(node[lane]) * MeshNodes<Dim>::stride; },
-          columns);
-      for (int d = 0; d < Dim; ++d) at.along[d][c] = columns[d];
-    }
+  const double* places = nodes.places();
+  for (int c = 0; c < corners_of_cell; ++c, node += lane_count) {
+    Lanes columns[MeshNodes<Dim>::stride];
+    to_columns([&](int lane) { return places + std::size_t(node[lane]) * MeshNodes<Dim>::stride; },
+               columns);
+    for (int d = 0; d < Dim; ++d) at.along[d][c] = columns[d];
   }
   return at;
 }
@@ -173,9 +162,8 @@ template <int Dim>
                                                                   Forces forces) const
 {
   if constexpr (Dim == 2) {
-    double* out = forces + std::size_t(block) * block_values;
     for (int c = 0; c < corners_of_cell; ++c)
-      for (int d = 0; d < 2; ++d) store(force.along[d][c], out + (2 * c + d) * lane_count);
+      to_rows(force.along[0][c], force.along[1][c], forces + force_at(block * lane_count, c));
   } else {
     using Row = Record<4>;
     alignas(lane_alignment) double rows[lane_count * 4];
@@ -282,7 +270,8 @@ void LocationCells<Dim>::fill_motion(Body<Dim>& body, const MeshNodes<Dim>& node
     for (int d = 0; d < Dim; ++d) {
       double place = 0, speed = 0;
       for (int c = 0; c < corners_of_cell; ++c) {
-        place += nodes.along(d)[std::size_t(node[c * lane_count]) * MeshNodes<Dim>::stride];
+        place += nodes.places()[std::size_t(node[c * lane_count]) * MeshNodes<Dim>::stride +
+                                std::size_t(d)];
         speed += fields.updated[std::size_t(node[c * lane_count]) * width + std::size_t(d)];
       }
       motion(position + d, p) = place / corners_of_cell;

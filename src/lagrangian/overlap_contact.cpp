@@ -1,3 +1,4 @@
+#include <mpm/core/sieve.hpp>
 #include <mpm/lagrangian/overlap_contact.hpp>
 
 #include <algorithm>
@@ -46,13 +47,12 @@ void OverlapContact<Dim>::set_cells(Cells cells)
 template <int Dim>
 void OverlapContact<Dim>::take_places(const MeshNodes<Dim>& nodes)
 {
-  const double* along[Dim];
-  for (int d = 0; d < Dim; ++d) along[d] = nodes.along(d);
+  constexpr auto stride = std::size_t(MeshNodes<Dim>::stride);
   for (LocalIndex c = 0; c < cells(); ++c) {
     CornerPlaces<Dim> places;
     for (std::size_t k = 0; k < corners_of_cell; ++k) {
-      const auto node = std::size_t(cells_[std::size_t(c)].nodes[k]);
-      for (int d = 0; d < Dim; ++d) places[k][d] = along[d][node * MeshNodes<Dim>::stride];
+      const double* place = nodes.places() + std::size_t(cells_[std::size_t(c)].nodes[k]) * stride;
+      for (int d = 0; d < Dim; ++d) places[k][d] = place[d];
     }
     if constexpr (Dim == 2)
       if (const CellOutline* outline = outline_of(c)) outline->take_corners(places);
@@ -83,40 +83,55 @@ void OverlapContact<Dim>::list_close()
   }
   boxes_then_ = boxes_;
   close_.clear();
+  Sieve sieve(close_);
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
-    auto [a, b] = pairs_[k];
-    if (!meet<Dim>(boxes_[std::size_t(a)], boxes_[std::size_t(b)], distance)) continue;
-    if (turned_[k]) std::swap(a, b);
-    close_.push_back({{a, b}, LocalIndex(k), touched_at_[k]});
+    const auto [a, b] = pairs_[k];
+    sieve.item() = {{turned_[k] ? b : a, turned_[k] ? a : b}, LocalIndex(k), touched_at_[k]};
+    sieve.keep(meet<Dim>(boxes_[std::size_t(a)], boxes_[std::size_t(b)], distance));
   }
 }
 
 template <int Dim>
-void OverlapContact<Dim>::find_overlaps()
+void OverlapContact<Dim>::list_near()
 {
   near_.clear();
+  Sieve sieve(near_);
   for (std::size_t k = 0; k < close_.size(); ++k) {
     const auto [a, b] = close_[k].cells;
-    if (meet<Dim>(boxes_[std::size_t(a)], boxes_[std::size_t(b)], 0))
-      near_.push_back({k, values_of(a), values_of(b)});
+    sieve.item() = {k, values_of(a), values_of(b)};
+    sieve.keep(meet<Dim>(boxes_[std::size_t(a)], boxes_[std::size_t(b)], 0));
   }
-  found_.find(near_);
+}
+
+template <int Dim>
+void OverlapContact<Dim>::list_pressing()
+{
   pressing_.clear();
+  Sieve sieve(pressing_);
   for (std::size_t entry = 0; entry < found_.size();) {
     const std::size_t k = found_.pair(entry);
-    double overlap = 0, face = 0;
-    for (; entry < found_.size() && found_.pair(entry) == k; ++entry)
-      if (found_.overlap(entry) > 0) {
-        overlap += found_.overlap(entry);
-        face += found_.face(entry);
-      }
-    if (!(overlap > 0)) continue;
-    Close& pair = close_[k];
-    if (pair.touched < 0) {
-      pair.touched = touched_at_[std::size_t(pair.pair)] = LocalIndex(touched_.size());
-      touched_.push_back({pair.cells, pair.pair, {}, {}});
-    }
-    pressing_.push_back({pair.cells, LocalIndex(k), pair.touched, overlap, face});
+    Pressing& pair = sieve.item();
+    pair = {close_[k].cells, LocalIndex(k), close_[k].touched, LocalIndex(entry)};
+    do {
+      const double overlap = found_.overlap(entry);
+      pair.overlap += std::max(0.0, overlap);
+      pair.face += double(overlap > 0) * found_.face(entry);
+    } while (++entry < found_.size() && found_.pair(entry) == k);
+    pair.end = LocalIndex(entry);
+    sieve.keep(pair.overlap > 0);
+  }
+}
+
+/// Those that have not yet since the last check.
+template <int Dim>
+void OverlapContact<Dim>::list_touched()
+{
+  for (Pressing& pair : pressing_) {
+    if (pair.touched >= 0) continue;
+    const LocalIndex number = close_[std::size_t(pair.close)].pair;
+    pair.touched = LocalIndex(touched_.size());
+    close_[std::size_t(pair.close)].touched = touched_at_[std::size_t(number)] = pair.touched;
+    touched_.push_back({pair.cells, number, {}, {}});
   }
 }
 
@@ -129,7 +144,10 @@ void OverlapContact<Dim>::measure(const MeshNodes<Dim>& nodes)
   });
   find_boxes();
   list_close();
-  find_overlaps();
+  list_near();
+  found_.find(near_);
+  list_pressing();
+  list_touched();
   list_touches();
   energy_ = 0;
   const std::vector<LocalIndex>& first = first_touch_;
@@ -192,25 +210,25 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
   const bool bears_less = !rigid && volume > least_squeezed * cells_[cell].volume;
   const double squeezed = bears_less ? volume / cells_[cell].volume : rigid ? 1.0 : least_squeezed;
   const double whole = 1 / (squeezed * cell_volume_), side = 1 / (squeezed * squeezed * cell_face_);
-  parts_.resize(count);
-  beside_.clear();
+  if (parts_.size() < count) parts_.resize(count);
+  if (beside_.size() < count * count / 2) beside_.resize(count * count / 2);
+  std::size_t of_one_wall = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const OverlapShare share(touches[k].overlap * whole);
-    Part& part = parts_[k];
-    part.location = locations_[std::size_t(touches[k].other)];
-    part.share = share.value;
-    part.slope = share.slope;
-    part.together = share.value;
-    part.face = touches[k].face;
+    const IndexVec<Dim> location = locations_[std::size_t(touches[k].other)];
+    double together = share.value, face = touches[k].face;
     for (std::size_t j = 0; j < k; ++j) {
       Part& other = parts_[j];
-      if (!are_of_one_wall(part.location, other.location)) continue;
-      beside_.push_back({j, k});
-      part.together += other.share;
-      part.face += touches[j].face;
-      other.together += part.share;
-      other.face += touches[k].face;
+      // Nobody foresees it: no branch.
+      const bool counts = are_of_one_wall(location, other.location);
+      beside_[of_one_wall] = {j, k};
+      of_one_wall += std::size_t(counts);
+      together += double(counts) * other.share;
+      face += double(counts) * touches[j].face;
+      other.together += double(counts) * share.value;
+      other.face += double(counts) * touches[k].face;
     }
+    parts_[k] = {location, share.value, share.slope, together, face, 0, 0};
   }
   for (std::size_t k = 0; k < count; ++k) {
     Part& part = parts_[k];
@@ -228,7 +246,7 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
                                      OverlapPotential::stiffness(part.together) * part.face * side);
     largest.share[of] = std::max(largest.share[of], part.share / part.together);
   }
-  for (const auto& [j, k] : beside_) {
+  for (const auto& [j, k] : std::span(beside_).first(of_one_wall)) {
     parts_[j].answer += parts_[k].change;
     parts_[k].answer += parts_[j].change;
   }

@@ -1,5 +1,6 @@
 /// Areas on which quadrilaterals lie upon each other, in lanes.
 
+#include <mpm/core/sieve.hpp>
 #include <mpm/core/transpose.hpp>
 #include <mpm/lagrangian/cell_overlaps.hpp>
 #include <mpm/lagrangian/overlap.hpp>
@@ -48,6 +49,23 @@ LaneMask parts_them(const Sides& one, const Sides& other)
     found = found || farthest <= 0.0;
   }
   return found;
+}
+
+/// Corners of lane_count pairs, pair_of(lane), from the first corner of either's first cell.
+template <class PairOf>
+[[gnu::always_inline]] inline void put_corners(const PairOf& pair_of, Quads& one, Quads& other)
+{
+  to_columns([&](int lane) { return pair_of(lane).first; }, one.x);
+  to_columns([&](int lane) { return pair_of(lane).first + 4; }, one.y);
+  to_columns([&](int lane) { return pair_of(lane).second; }, other.x);
+  to_columns([&](int lane) { return pair_of(lane).second + 4; }, other.y);
+  const Lanes x = one.x[0], y = one.y[0];
+  for (int k = 0; k < 4; ++k) {
+    one.x[k] -= x;
+    one.y[k] -= y;
+    other.x[k] -= x;
+    other.y[k] -= y;
+  }
 }
 
 /// Counter-clockwise: a whole cell, then for each corner that may be a reflex one the two triangles
@@ -103,38 +121,55 @@ void CellOverlaps<2>::list_near(std::span<const MeetingCells> cells)
     const int reflex = reflex_corner(corners);
     return reflex < 0 ? std::pair(0, 1) : std::pair(1 + 2 * reflex, 3 + 2 * reflex);
   };
+  Sieve sieve(near_);
   for (std::size_t first = 0; first < cells.size(); first += lane_count) {
     const std::size_t count = std::min<std::size_t>(lane_count, cells.size() - first);
-    const auto cell_of = [&](int lane) -> const MeetingCells& {
-      return cells[first + std::min(std::size_t(lane), count - 1)];
-    };
     Quads quads_one, quads_other;
-    to_columns([&](int lane) { return cell_of(lane).first; }, quads_one.x);
-    to_columns([&](int lane) { return cell_of(lane).first + 4; }, quads_one.y);
-    to_columns([&](int lane) { return cell_of(lane).second; }, quads_other.x);
-    to_columns([&](int lane) { return cell_of(lane).second + 4; }, quads_other.y);
-    const Lanes x = quads_one.x[0], y = quads_one.y[0];
-    for (int k = 0; k < 4; ++k) {
-      quads_one.x[k] -= x;
-      quads_one.y[k] -= y;
-      quads_other.x[k] -= x;
-      quads_other.y[k] -= y;
-    }
+    put_corners(
+        [&](int lane) -> const MeetingCells& {
+          return cells[first + std::min(std::size_t(lane), count - 1)];
+        },
+        quads_one, quads_other);
     const Sides one(quads_one), other(quads_other);
     const LaneMask reflex = has_reflex_corner(one) || has_reflex_corner(other);
     const LaneMask apart = !reflex && (parts_them(one, other) || parts_them(other, one));
     for (std::size_t lane = 0; lane < count; ++lane) {
-      if (apart[lane]) continue;
       const MeetingCells& pair = cells[first + lane];
-      if (!reflex[lane]) {
-        near_.push_back({pair, {0, 0}});
+      if (!reflex[lane]) [[likely]] {
+        sieve.item() = {pair, {0, 0}};
+        sieve.keep(!apart[lane]);
         continue;
       }
       const auto [one_first, one_last] = pieces_of(pair.first);
       const auto [other_first, other_last] = pieces_of(pair.second);
       for (int a = one_first; a < one_last; ++a)
-        for (int b = other_first; b < other_last; ++b) near_.push_back({pair, {a, b}});
+        for (int b = other_first; b < other_last; ++b) {
+          sieve.item() = {pair, {a, b}};
+          sieve.keep(true);
+        }
     }
+  }
+}
+
+/// As put_corners, of whole cells and triangles.
+void CellOverlaps<2>::put_pieces(const Near* const (&near)[lane_count], Quads& one, Quads& other)
+{
+  alignas(lane_alignment) double a[values * lane_count], b[values * lane_count];
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const auto& [pair, parts] = *near[lane];
+    const auto& of_one = pieces[std::size_t(parts[0])];
+    const auto& of_other = pieces[std::size_t(parts[1])];
+    for (std::size_t k = 0; k < values; ++k) {
+      const std::size_t axis = k < 4 ? 0 : 4;
+      a[k * lane_count + lane] = pair.first[axis + of_one[k % 4]] - pair.first[axis];
+      b[k * lane_count + lane] = pair.second[axis + of_other[k % 4]] - pair.first[axis];
+    }
+  }
+  for (int k = 0; k < 4; ++k) {
+    one.x[k] = load(a + k * lane_count);
+    one.y[k] = load(a + (k + 4) * lane_count);
+    other.x[k] = load(b + k * lane_count);
+    other.y[k] = load(b + (k + 4) * lane_count);
   }
 }
 
@@ -144,24 +179,17 @@ void CellOverlaps<2>::find(std::span<const MeetingCells> cells)
   const std::size_t groups = (near_.size() + lane_count - 1) / lane_count;
   overlaps_.resize(groups * values_per_group);
   for (std::size_t g = 0; g < groups; ++g) {
-    alignas(lane_alignment) double a[values * lane_count], b[values * lane_count];
+    const Near* near[lane_count];
+    bool are_whole = true;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const auto& [pair, parts] = near_[std::min(g * lane_count + lane, near_.size() - 1)];
-      const auto& one = pieces[std::size_t(parts[0])];
-      const auto& other = pieces[std::size_t(parts[1])];
-      for (std::size_t k = 0; k < values; ++k) {
-        const std::size_t axis = k < 4 ? 0 : 4;
-        a[k * lane_count + lane] = pair.first[axis + one[k % 4]] - pair.first[axis];
-        b[k * lane_count + lane] = pair.second[axis + other[k % 4]] - pair.first[axis];
-      }
+      near[lane] = &near_[std::min(g * lane_count + lane, near_.size() - 1)];
+      are_whole &= (near[lane]->pieces[0] | near[lane]->pieces[1]) == 0;
     }
     Quads one, other;
-    for (int k = 0; k < 4; ++k) {
-      one.x[k] = load(a + k * lane_count);
-      one.y[k] = load(a + (k + 4) * lane_count);
-      other.x[k] = load(b + k * lane_count);
-      other.y[k] = load(b + (k + 4) * lane_count);
-    }
+    if (are_whole) [[likely]]
+      put_corners([&](int lane) -> const MeetingCells& { return near[lane]->cells; }, one, other);
+    else
+      put_pieces(near, one, other);
     const Overlap overlap = overlap_of(one, other);
     double* out = &overlaps_[g * values_per_group];
     store(overlap.area, out);

@@ -64,22 +64,14 @@ void TotalLagrangian<Dim>::book_friction(double dt)
 template <int Dim>
 void TotalLagrangian<Dim>::gather_cell_forces()
 {
+  using Row = Record<Dim>;
   constexpr int corners = LocationMesh<Dim>::corners;
   const double* forces = cell_forces_.data();
   const std::int32_t* term = node_terms_.data();
-  for (LocalIndex first = 0; first < nodes_->size(); first += lane_count) {
-    alignas(lane_alignment) double terms[Dim][corners * lane_count];
-    for (int k = 0; k < corners * lane_count; ++k)
-      for (int d = 0; d < Dim; ++d) terms[d][k] = forces[term[k] + d * lane_count];
-    term += corners * lane_count;
-    Lanes sum[Dim];
-    for (int d = 0; d < Dim; ++d) {
-      sum[d] = load(terms[d]);
-      for (int c = 1; c < corners; ++c) sum[d] += load(terms[d] + c * lane_count);
-    }
-    const int count = std::min<LocalIndex>(lane_count, nodes_->size() - first);
-    for (int lane = 0; lane < count; ++lane)
-      for (int d = 0; d < Dim; ++d) fields_->force_of(first + lane)[d] = sum[d][lane];
+  for (LocalIndex node = 0; node < nodes_->size(); ++node, term += corners) {
+    Row sum(forces + term[0], stdx::vector_aligned);
+    for (int c = 1; c < corners; ++c) sum += Row(forces + term[c], stdx::vector_aligned);
+    sum.copy_to(fields_->force_of(node), stdx::vector_aligned);
   }
 }
 

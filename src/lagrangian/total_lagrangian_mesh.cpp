@@ -136,20 +136,15 @@ void TotalLagrangian<Dim>::list_node_terms()
     first_force_.push_back(values);
     values += std::size_t(body.particles.blocks()) * LocationCells<Dim>::block_values;
   }
-  cell_forces_.assign(values + Dim * lane_count, 0.0);
-  const auto groups = std::size_t((nodes_->size() + lane_count - 1) / lane_count);
-  node_terms_.assign(groups * corners * lane_count, std::int32_t(values));
+  cell_forces_.assign(values + Dim, 0.0);
+  node_terms_.assign(std::size_t(nodes_->size()) * corners, std::int32_t(values));
   std::vector<int> filled(std::size_t(nodes_->size()), 0);
   for (std::size_t b = 0; b < cells_.size(); ++b)
     for (LocalIndex p = 0; p < setup_.bodies[b].particles.size(); ++p)
       for (int c = 0; c < corners; ++c) {
-        const std::size_t block = std::size_t(p / lane_count), lane = std::size_t(p % lane_count);
-        const auto node = std::size_t(
-            cells_[b].corner_nodes()[(block * corners + std::size_t(c)) * lane_count + lane]);
-        const auto slot = std::size_t(filled[node]++);
-        node_terms_[(node / lane_count * corners + slot) * lane_count + node % lane_count] =
-            std::int32_t(first_force_[b] + block * LocationCells<Dim>::block_values +
-                         Dim * std::size_t(c) * lane_count + lane);
+        const auto node = std::size_t(cells_[b].nodes_of(p)[std::size_t(c)]);
+        node_terms_[node * corners + std::size_t(filled[node]++)] =
+            std::int32_t(first_force_[b] + LocationCells<Dim>::force_at(p, c));
       }
 }
 

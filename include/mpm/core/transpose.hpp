@@ -1,7 +1,8 @@
 #pragma once
-/// Between columns of lanes (one value of many particles) and rows of four (many values of one
-/// particle), in registers: reading single values that were stored as lanes, or lanes that were
-/// stored one by one, would wait for the store to finish.
+/// Between columns of lanes (one value of many particles) and rows of two or four (many values of
+/// one particle), in registers: reading single values that were stored as lanes, or lanes that were
+/// stored one by one, would wait for the store to finish; and a row is read at once, where the
+/// gather instructions of most processors read value by value.
 
 #include <mpm/core/lanes.hpp>
 
@@ -66,7 +67,44 @@ template <int N>  // lane_count; a parameter so that branches for other widths a
   }
 }
 
+template <int N>
+[[gnu::always_inline]] inline void to_rows(const Vector<N>& va, const Vector<N>& vb, double* rows)
+{
+  if constexpr (N == 8) {
+    write(__builtin_shufflevector(va, vb, 0, 8, 1, 9, 2, 10, 3, 11), rows);
+    write(__builtin_shufflevector(va, vb, 4, 12, 5, 13, 6, 14, 7, 15), rows + N);
+  } else if constexpr (N == 4) {
+    write(__builtin_shufflevector(va, vb, 0, 4, 1, 5), rows);
+    write(__builtin_shufflevector(va, vb, 2, 6, 3, 7), rows + N);
+  } else {
+    write(__builtin_shufflevector(va, vb, 0, 2), rows);
+    write(__builtin_shufflevector(va, vb, 1, 3), rows + N);
+  }
+}
+
 /// row(lane): where the row of a lane stands.
+template <int N, class Row>
+[[gnu::always_inline]] inline void to_columns(const Row& row, Vector<N> (&columns)[2])
+{
+  const auto both = [&](int first, int second) {
+    return __builtin_shufflevector(read<2>(row(first)), read<2>(row(second)), 0, 1, 2, 3);
+  };
+  if constexpr (N == 8) {
+    const Vector<4> r02 = both(0, 2), r46 = both(4, 6), r13 = both(1, 3), r57 = both(5, 7);
+    const Vector<N> even = __builtin_shufflevector(r02, r46, 0, 1, 2, 3, 4, 5, 6, 7);
+    const Vector<N> odd = __builtin_shufflevector(r13, r57, 0, 1, 2, 3, 4, 5, 6, 7);
+    columns[0] = __builtin_shufflevector(even, odd, 0, 8, 2, 10, 4, 12, 6, 14);
+    columns[1] = __builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15);
+  } else if constexpr (N == 4) {
+    const Vector<N> even = both(0, 2), odd = both(1, 3);
+    columns[0] = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    columns[1] = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+  } else {
+    const Vector<N> first = read<N>(row(0)), second = read<N>(row(1));
+    columns[0] = __builtin_shufflevector(first, second, 0, 2);
+    columns[1] = __builtin_shufflevector(first, second, 1, 3);
+  }
+}
 template <int N, class Row>
 [[gnu::always_inline]] inline void to_columns(const Row& row, Vector<N> (&columns)[4])
 {
@@ -116,14 +154,21 @@ template <int N, class Row>
                                         std::bit_cast<V>(c), std::bit_cast<V>(d), rows, stride);
 }
 
-/// The inverse of `to_rows`: columns[k] collects value k of every row; that of a lane stands at
-/// row(lane).
-template <class Row>
-[[gnu::always_inline]] inline void to_columns(const Row& row, Lanes (&columns)[4])
+/// Row `lane`, at rows + 2 * lane, becomes {a, b} of that lane.
+[[gnu::always_inline]] inline void to_rows(const Lanes& a, const Lanes& b, double* rows)
 {
-  transpose_detail::Vector<lane_count> found[4];
+  using V = transpose_detail::Vector<lane_count>;
+  transpose_detail::to_rows<lane_count>(std::bit_cast<V>(a), std::bit_cast<V>(b), rows);
+}
+
+/// The inverse of `to_rows`, for rows of two or four: columns[k] collects value k of every row;
+/// that of a lane stands at row(lane).
+template <class Row, int Width>
+[[gnu::always_inline]] inline void to_columns(const Row& row, Lanes (&columns)[Width])
+{
+  transpose_detail::Vector<lane_count> found[Width];
   transpose_detail::to_columns<lane_count>(row, found);
-  for (int k = 0; k < 4; ++k) columns[k] = std::bit_cast<Lanes>(found[k]);
+  for (int k = 0; k < Width; ++k) columns[k] = std::bit_cast<Lanes>(found[k]);
 }
 [[gnu::always_inline]] inline void to_columns(const double* rows, std::size_t stride,
                                               Lanes (&columns)[4])

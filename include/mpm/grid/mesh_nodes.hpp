@@ -37,13 +37,10 @@ class MeshNodes final : public Nodes<Dim> {
     return corners_[std::size_t(node)][axis] * location_size_[axis];
   }
   const IndexVec<Dim>& corner(LocalIndex node) const { return corners_[std::size_t(node)]; }
-  /// Component `axis` of the place of node i, m, is along(axis)[i * stride]: columns in the plane,
-  /// in space rows of four, which cells read at once. Null on a rank without nodes.
-  static constexpr int stride = Dim == 2 ? 1 : 4;
-  const double* along(int axis) const
-  {
-    return places_.empty() ? nullptr : places_.data() + axis * axis_stride();
-  }
+  /// Component `axis` of the place of node i, m, is places()[i * stride + axis]: rows of two, in
+  /// space of four, which cells read at once. Null on a rank without nodes.
+  static constexpr int stride = Dim == 2 ? 2 : 4;
+  const double* places() const { return places_.empty() ? nullptr : places_.data(); }
   /// x += dt v with the updated velocities, which become the momentum; forces are 0 then. Returns
   /// the largest component of the velocities of nodes that are not free, m/s.
   double move(NodeFields<Dim>& fields, double dt);
@@ -75,10 +72,9 @@ class MeshNodes final : public Nodes<Dim> {
   std::vector<char> free_;  ///< empty where none is
   Vec<Dim> location_size_;
   IndexVec<Dim> period_;
-  std::ptrdiff_t axis_stride() const { return stride == 1 ? size() : 1; }
   double& place(LocalIndex node, int axis)
   {
-    return places_[std::size_t(node * std::ptrdiff_t(stride) + axis * axis_stride())];
+    return places_[std::size_t(node) * stride + std::size_t(axis)];
   }
 
   LaneVector<double> places_;

@@ -7,6 +7,7 @@
 #include <mpm/core/types.hpp>
 #include <mpm/lagrangian/brick_overlap.hpp>
 #include <mpm/lagrangian/cell_outline.hpp>
+#include <mpm/lagrangian/overlap.hpp>
 
 #include <algorithm>
 #include <array>
@@ -147,6 +148,7 @@ class CellOverlaps<2> {
     return &overlaps_[entry / lane_count * values_per_group + entry % lane_count];
   }
   void list_near(std::span<const MeetingCells> cells);
+  static void put_pieces(const Near* const (&near)[lane_count], Quads& one, Quads& other);
 
   std::vector<Near> near_;
   LaneVector<double> overlaps_;

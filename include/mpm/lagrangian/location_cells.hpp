@@ -34,11 +34,11 @@ class LocationCells {
  public:
   using CellNodes = std::array<LocalIndex, std::size_t(corners_of_cell)>;
   /// Where forces go, N. In the plane to [blocks * block_values], aligned for lanes, each cell's
-  /// apart, for nodes that gather them in lanes: component d of corner c of lane l at
-  /// (2 c + d) * lane_count + l. In space that would be as much memory to go through as all else
-  /// together: they are added to the nodes'.
+  /// apart, for nodes that gather them: both components on a corner at force_at. In space that
+  /// would be as much memory to go through as all else together: they are added to the nodes'.
   using Forces = std::conditional_t<Dim == 2, double*, NodeFields<Dim>*>;
   static constexpr int block_values = Dim * corners_of_cell * lane_count;
+  static std::size_t force_at(LocalIndex cell, int corner) { return Dim * place(cell, corner); }
 
   /// `nodes` of each of the body's cells, in the order of its particles; `size` of a cell, m.
   LocationCells(const Body<Dim>& body, std::span<const CellNodes> nodes, const Vec<Dim>& size);

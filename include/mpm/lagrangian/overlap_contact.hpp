@@ -127,7 +127,9 @@ class OverlapContact final : public SelfContact<Dim> {
   void answer(std::vector<Ghosts::Peer>& peers, const std::vector<std::vector<double>>& asked,
               std::vector<Ghosts::Peer>& sides) const;
   void list_close();
-  void find_overlaps();
+  void list_near();
+  void list_pressing();
+  void list_touched();
   void list_touches();
   std::vector<double> counted_work() const;
   void take_motion(const NodeFields<Dim>& fields);
@@ -152,20 +154,18 @@ class OverlapContact final : public SelfContact<Dim> {
   struct Pressing {
     std::array<LocalIndex, 2> cells;
     LocalIndex close, touched;
-    double overlap;       ///< m^3, in the plane m^2
-    double face;          ///< what the overlap gains per way of a cell, m^2 or m
-    double pressure = 0;  ///< of both cells' answers, Pa, in the plane N/m
+    LocalIndex first, end;  ///< entries of found_
+    double overlap;         ///< m^3, in the plane m^2
+    double face;            ///< what the overlap gains per way of a cell, m^2 or m
+    double pressure;        ///< of both cells' answers, Pa, in the plane N/m
   };
   /// visit(entry, pair) of found_, where it has an overlap.
   template <class Visit>
   void for_each_overlap(const Visit& visit) const
   {
-    auto pair = pressing_.begin();
-    for (std::size_t entry = 0; entry < found_.size(); ++entry) {
-      if (!(found_.overlap(entry) > 0)) continue;
-      while (std::size_t(pair->close) != found_.pair(entry)) ++pair;
-      visit(entry, *pair);
-    }
+    for (const Pressing& pair : pressing_)
+      for (auto entry = std::size_t(pair.first); entry < std::size_t(pair.end); ++entry)
+        if (found_.overlap(entry) > 0) visit(entry, pair);
   }
   bool is_with_a_copy(const std::array<LocalIndex, 2>& pair) const
   {
@@ -203,8 +203,8 @@ class OverlapContact final : public SelfContact<Dim> {
   double skin_ = 0;
 
   /// Of this rank's cells, then of the ghosts.
-  std::vector<double> values_;  ///< [n * Overlaps::values], m
-  std::vector<Box> boxes_;
+  LaneVector<double> values_;  ///< [n * Overlaps::values], m
+  LaneVector<Box> boxes_;
   std::vector<double> stiffness_;
   std::vector<IndexVec<Dim>> locations_;
   std::vector<OpenCorners<Dim>> open_;
@@ -215,7 +215,7 @@ class OverlapContact final : public SelfContact<Dim> {
   std::vector<char> turned_;            ///< whether the second stands first in Close
   std::vector<LocalIndex> touched_at_;  ///< of a pair among touched_, or -1
   std::vector<Close> close_;
-  std::vector<Box> boxes_then_;     ///< when those were listed
+  LaneVector<Box> boxes_then_;      ///< when those were listed
   std::vector<MeetingCells> near_;  ///< those whose boxes meet
   Overlaps found_;                  ///< theirs
   std::vector<Pressing> pressing_;  ///< in the order of found_
@@ -224,9 +224,10 @@ class OverlapContact final : public SelfContact<Dim> {
   /// `other_side_` has them. All are 0 but for a moment.
   std::vector<double> sides_;
   std::vector<LocalIndex> other_side_;
-  std::vector<Part> parts_;                         ///< of the touches of one cell, for a moment
-  std::vector<std::array<std::size_t, 2>> beside_;  ///< those of one wall
-  std::vector<Touch> touches_;                      ///< of cell c from first_touch_[c] on
+  /// Of the touches of one cell, for a moment, and those of one wall.
+  std::vector<Part> parts_;
+  std::vector<std::array<std::size_t, 2>> beside_;
+  std::vector<Touch> touches_;  ///< of cell c from first_touch_[c] on
   std::vector<LocalIndex> first_touch_, next_touch_;
   std::vector<double> motion_;         ///< of the cells' corners, with friction
   std::vector<Vec<Dim>> places_then_;  ///< of nodes, m, when the pairs were found

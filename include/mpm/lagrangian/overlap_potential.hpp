@@ -1,6 +1,8 @@
 #pragma once
 /// What an overlap of two cells counts as, and what all on one side of a cell store together.
 
+#include <algorithm>
+
 namespace mpm {
 
 /// Of the share of a cell that another one lies on: s = a^2 / (2 onset) up to the onset, a -
@@ -11,10 +13,12 @@ struct OverlapShare {
 
   double value, slope;
 
-  explicit OverlapShare(double share)
-      : value(share < onset ? 0.5 / onset * share * share : share - 0.5 * onset),
-        slope(share < onset ? 1 / onset * share : 1.0)
+  explicit OverlapShare(double share) : slope(std::min(1 / onset * share, 1.0))
   {
+    // Nobody foresees on which side it is: no branch.
+    const bool sets_in = share < onset;
+    value =
+        double(sets_in) * (0.5 / onset * share * share) + double(!sets_in) * (share - 0.5 * onset);
   }
 };
 

@@ -128,8 +128,8 @@ class TotalLagrangian final : public Formulation<Dim> {
   std::vector<LaneVector<double>> least_stretches_;  ///< squared, of their cells at the last check
   // In the plane, where nodes gather what cells do to them.
   std::vector<std::size_t> first_force_;
-  LaneVector<double> cell_forces_;  ///< all bodies' blocks, and a block of zeros
-  /// Per lane_count nodes and corner: where in cell_forces_ the x component stands.
+  LaneVector<double> cell_forces_;  ///< all bodies' blocks, and a row of zeros
+  /// [nodes * corners]: where in cell_forces_ the row of a cell around it stands.
   std::vector<std::int32_t> node_terms_;
   std::unique_ptr<SelfContact<Dim>> contact_;
   std::vector<double> friction_;  ///< [nodes * Dim], N; empty without

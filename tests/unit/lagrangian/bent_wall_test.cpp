@@ -82,7 +82,10 @@ class BentCell {
 
  private:
   static constexpr double dt = 1e-9;
-  static std::size_t at(int corner, int d) { return std::size_t((2 * corner + d) * lane_count); }
+  static std::size_t at(int corner, int d)
+  {
+    return LocationCells<2>::force_at(0, corner) + std::size_t(d);
+  }
   double force(int corner, int d) const { return forces_[at(corner, d)]; }
   static ParticleStore store_of() { return {{{"position", 2, "m"}}, {{"volume", 1, "m3"}}, {}}; }
 

@@ -62,8 +62,7 @@ class Patch {
       for (std::size_t c = 0; c < 4; ++c)
         for (int d = 0; d < 2; ++d)
           force_[std::size_t(corners_[p][c])][d] +=
-              forces[p / lane_count * LocationCells<2>::block_values +
-                     (2 * c + std::size_t(d)) * lane_count + p % lane_count];
+              forces[LocationCells<2>::force_at(LocalIndex(p), int(c)) + std::size_t(d)];
   }
 
   /// Of the cells around a corner of the lattice, N.

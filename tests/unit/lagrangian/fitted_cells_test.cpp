@@ -54,11 +54,9 @@ class Block {
     for (LocalIndex p = 0; p < body_->particles.size(); ++p)
       for (int c = 0; c < 4; ++c)
         for (int d = 0; d < 2; ++d) {
-          const auto block = std::size_t(p / lane_count), lane = std::size_t(p % lane_count);
-          const LocalIndex node =
-              cells_->corner_nodes()[(block * 4 + std::size_t(c)) * lane_count + lane];
-          forces_[std::size_t(node)][d] += forces[block * LocationCells<2>::block_values +
-                                                  std::size_t(2 * c + d) * lane_count + lane];
+          const LocalIndex node = cells_->nodes_of(p)[std::size_t(c)];
+          forces_[std::size_t(node)][d] +=
+              forces[LocationCells<2>::force_at(p, c) + std::size_t(d)];
         }
   }
   double energy() const
