@@ -1,5 +1,6 @@
 """mpm_report on runs of each kind: a page that stands alone, and what it says."""
 import html.parser
+import io
 import json
 import os
 import pathlib
@@ -13,6 +14,7 @@ import needed
 
 needed.modules("numpy", "h5py", "yaml", "matplotlib", "PIL")
 
+import numpy  # noqa: E402
 from PIL import Image  # noqa: E402
 
 from program import ProgramTest, mpm_par, scene, set_options, summary  # noqa: E402
@@ -295,6 +297,21 @@ class Report(ProgramTest):
         refused = mpm_report(folder, "--at", "5%")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("holds studies", refused.stderr)
+
+    def test_a_legend_of_long_names_stands_within_its_picture(self):
+        from mpm_par.report import drawing
+
+        def draw(axes):
+            for k in range(18):
+                axes.plot([0, 1], [0, k], label=f"threshold 10 higher, right, spacing {10 + k} um" +
+                                                ", dry" * (k % 4))
+            drawing.legend_below(axes, 2, 7.5)
+
+        made = drawing.plot("long", draw, "", "", height=5.3)
+        ink = numpy.asarray(Image.open(io.BytesIO(made.files["png"])).convert("L")) < 128
+        columns = numpy.flatnonzero(ink.any(axis=0))
+        self.assertGreater(columns[0], 0)
+        self.assertLess(columns[-1], ink.shape[1] - 1)
 
 
 if __name__ == "__main__":

@@ -33,6 +33,18 @@ def _bytes(figure, ending):
     return made.getvalue()
 
 
+def legend_below(axes, columns, size):
+    """A legend in letters of `size` points, or as much smaller as lets its names stand within the
+    figure."""
+    room = 0.98 * axes.figure.bbox.width
+    width = room + 1
+    while width > room:
+        legend = axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.46, -0.14),
+                             ncols=columns, fontsize=size)
+        width = legend.get_window_extent(axes.figure.canvas.get_renderer()).width
+        size *= min(0.98, room / width)
+
+
 def plot(stem, draw, alt, caption, height=4.1, endings=("svg", "png")):
     """A Drawing of what `draw(axes)` makes."""
     with pyplot.rc_context(pictures.STYLE):

@@ -28,8 +28,7 @@ def opened(study, folder):
 def _finish(axes, columns, size):
     """Grid lines, and a legend below."""
     axes.grid(color="#e6e8eb", lw=0.7)
-    axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.46, -0.14), ncols=columns,
-                fontsize=size)
+    drawing.legend_below(axes, columns, size)
 
 
 def _curves(stem, study, runs):
