@@ -6,19 +6,6 @@
 
 namespace mpm {
 
-namespace {
-
-/// Of nodes, along an axis, m.
-template <int Dim>
-auto places_along(const MeshNodes<Dim>& nodes, int axis)
-{
-  return [places = nodes.places(), axis](LocalIndex node) {
-    return places[std::ptrdiff_t(node) * MeshNodes<Dim>::stride + axis];
-  };
-}
-
-}  // namespace
-
 template <int Dim>
 RigidWall<Dim>::RigidWall(const WallPlacement& placement, const WallMotion& motion, WallGrip grip,
                           ReactionBook book, const WallStiffness<Dim>& stiffness, double friction)
@@ -95,14 +82,13 @@ void RigidWall<Dim>::find_near(const MeshNodes<Dim>& nodes, double face)
       nodes.way() - near_->way + std::abs(face - near_->face) < 0.5 * reach)
     return;
   near_ = Near{nodes.mesh(), nodes.way(), face, {}, {}};
-  const auto at = places_along(nodes, axis);
   for (LocalIndex node = 0; node < nodes.size(); ++node) {
     if (nodes.is_led(node)) continue;
     const bool held = grip_ != WallGrip::contact &&
                       std::abs(nodes.rest(node, axis) - placement_.position) < 1e-9 * reach;
     if (held)
       near_->held.push_back(node);
-    else if (side * (at(node) - face) > -reach)
+    else if (side * (nodes.place_of(node)[axis] - face) > -reach)
       near_->nodes.push_back(node);
   }
 }
@@ -131,18 +117,18 @@ void RigidWall<Dim>::stop(const MeshNodes<Dim>& nodes, NodeFields<Dim>& fields, 
   const int axis = placement_.axis;
   const double face = position(time + dt), side = placement_.upper ? 1 : -1;
   find_near(nodes, face);
-  const auto at = places_along(nodes, axis);
   const auto put_to_face = [&](LocalIndex node) {
     const bool owned = nodes.is_owned(node);
     for (int d = 0; d < Dim; ++d)
       if (d == axis)
-        this->drive(fields, node, owned, d, (face - at(node)) / dt);
+        this->drive(fields, node, owned, d, (face - nodes.place_of(node)[axis]) / dt);
       else if (grip_ == WallGrip::stick)
         this->drive(fields, node, owned, d, 0);
   };
   for (const LocalIndex node : near_->held) put_to_face(node);
   for (const LocalIndex node : near_->nodes) {
-    const double beyond = side * (at(node) + dt * fields.updated_of(node)[axis] - face);
+    const double beyond =
+        side * (nodes.place_of(node)[axis] + dt * fields.updated_of(node)[axis] - face);
     if (!(beyond > 0)) continue;
     put_to_face(node);
     if (friction_ > 0) rub(fields, node, nodes.is_owned(node), beyond / dt);

@@ -17,7 +17,7 @@ MeshNodes<Dim>::MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> 
       mesh_(Nodes<Dim>::new_listing()),
       listing_(mesh_)
 {
-  places_.assign(owned_.size() * stride, 0.0);
+  places_.assign(owned_.size() * place_width, 0.0);
   for (LocalIndex node = 0; node < this->size(); ++node) {
     const Vec<Dim> offset = offsets(corner(node));
     for (int d = 0; d < Dim; ++d) place(node, d) = rest(node, d) + offset[d];
@@ -34,9 +34,7 @@ void MeshNodes<Dim>::lead(LocalIndex node)
 template <int Dim>
 Vec<Dim> MeshNodes<Dim>::position(LocalIndex node) const
 {
-  Vec<Dim> position;
-  for (int d = 0; d < Dim; ++d) position[d] = places_[std::size_t(node) * stride + std::size_t(d)];
-  return position;
+  return Eigen::Map<const Vec<Dim>>(place_of(node));
 }
 
 template <int Dim>

@@ -108,11 +108,9 @@ template <int Dim>
 {
   const LocalIndex* node = &corner_nodes_[std::size_t(block) * corners_of_cell * lane_count];
   CellCorners<Dim> at;
-  const double* places = nodes.places();
   for (int c = 0; c < corners_of_cell; ++c, node += lane_count) {
-    Lanes columns[MeshNodes<Dim>::stride];
-    to_columns([&](int lane) { return places + std::size_t(node[lane]) * MeshNodes<Dim>::stride; },
-               columns);
+    Lanes columns[MeshNodes<Dim>::place_width];
+    to_columns([&](int lane) { return nodes.place_of(node[lane]); }, columns);
     for (int d = 0; d < Dim; ++d) at.along[d][c] = columns[d];
   }
   return at;
@@ -270,8 +268,7 @@ void LocationCells<Dim>::fill_motion(Body<Dim>& body, const MeshNodes<Dim>& node
     for (int d = 0; d < Dim; ++d) {
       double place = 0, speed = 0;
       for (int c = 0; c < corners_of_cell; ++c) {
-        place += nodes.places()[std::size_t(node[c * lane_count]) * MeshNodes<Dim>::stride +
-                                std::size_t(d)];
+        place += nodes.place_of(node[c * lane_count])[d];
         speed += fields.updated[std::size_t(node[c * lane_count]) * width + std::size_t(d)];
       }
       motion(position + d, p) = place / corners_of_cell;

@@ -47,11 +47,10 @@ void OverlapContact<Dim>::set_cells(Cells cells)
 template <int Dim>
 void OverlapContact<Dim>::take_places(const MeshNodes<Dim>& nodes)
 {
-  constexpr auto stride = std::size_t(MeshNodes<Dim>::stride);
   for (LocalIndex c = 0; c < cells(); ++c) {
     CornerPlaces<Dim> places;
     for (std::size_t k = 0; k < corners_of_cell; ++k) {
-      const double* place = nodes.places() + std::size_t(cells_[std::size_t(c)].nodes[k]) * stride;
+      const double* place = nodes.place_of(cells_[std::size_t(c)].nodes[k]);
       for (int d = 0; d < Dim; ++d) places[k][d] = place[d];
     }
     if constexpr (Dim == 2)

@@ -51,7 +51,7 @@ LaneMask parts_them(const Sides& one, const Sides& other)
   return found;
 }
 
-/// Corners of lane_count pairs, pair_of(lane), from the first corner of either's first cell.
+/// Corners of lane_count pairs, pair_of(lane), each from the first corner of its first cell.
 template <class PairOf>
 [[gnu::always_inline]] inline void put_corners(const PairOf& pair_of, Quads& one, Quads& other)
 {

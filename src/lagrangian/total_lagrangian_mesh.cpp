@@ -171,10 +171,7 @@ void TotalLagrangian<Dim>::add_masses()
     const int velocity = motion.find("velocity"), mass = motion.find("mass");
     for (LocalIndex p = 0; p < particles.size(); ++p)
       for (int c = 0; c < corners; ++c) {
-        const LocalIndex node =
-            cells_[b].corner_nodes()[(std::size_t(p / lane_count) * corners + std::size_t(c)) *
-                                         lane_count +
-                                     std::size_t(p % lane_count)];
+        const LocalIndex node = cells_[b].nodes_of(p)[std::size_t(c)];
         const double share = motion(mass, p) / corners;
         fields_->mass_of(node) += share;
         for (int d = 0; d < Dim; ++d)

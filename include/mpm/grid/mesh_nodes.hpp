@@ -37,10 +37,12 @@ class MeshNodes final : public Nodes<Dim> {
     return corners_[std::size_t(node)][axis] * location_size_[axis];
   }
   const IndexVec<Dim>& corner(LocalIndex node) const { return corners_[std::size_t(node)]; }
-  /// Component `axis` of the place of node i, m, is places()[i * stride + axis]: rows of two, in
-  /// space of four, which cells read at once. Null on a rank without nodes.
-  static constexpr int stride = Dim == 2 ? 2 : 4;
-  const double* places() const { return places_.empty() ? nullptr : places_.data(); }
+  /// Its place, m: a row of two, in space of four values, which cells read at once.
+  const double* place_of(LocalIndex node) const
+  {
+    return places_.data() + std::size_t(node) * place_width;
+  }
+  static constexpr int place_width = Dim == 2 ? 2 : 4;
   /// x += dt v with the updated velocities, which become the momentum; forces are 0 then. Returns
   /// the largest component of the velocities of nodes that are not free, m/s.
   double move(NodeFields<Dim>& fields, double dt);
@@ -74,7 +76,7 @@ class MeshNodes final : public Nodes<Dim> {
   IndexVec<Dim> period_;
   double& place(LocalIndex node, int axis)
   {
-    return places_[std::size_t(node) * stride + std::size_t(axis)];
+    return places_[std::size_t(node) * place_width + std::size_t(axis)];
   }
 
   LaneVector<double> places_;
