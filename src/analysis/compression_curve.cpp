@@ -30,8 +30,6 @@ constexpr double smallest_toe = 0.01;
 constexpr double ringing_of_toe = 2.5;
 constexpr int curve_bins = 400;
 constexpr double tangent_reach = 0.03;
-/// Elastic walls on a coarse grid meet within 5 % strain of their buckling.
-constexpr double short_plateau = 1.0 / 3;
 constexpr double before_knee = 0.5;
 constexpr std::size_t fewest_points = 12;
 
@@ -139,10 +137,36 @@ struct Plateau {
   std::optional<double> end;
 };
 
-/// Lengths are `scale` times those of wood's usual plateau, which is 10 % strain long and more.
-std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, double modulus,
-                                    double scale)
+struct PlateauSearch {
+  double scale;       ///< of all lengths, which are those of wood's usual plateau of 10 % and more
+  bool beyond_peaks;  ///< a rise that ends below what was borne before is a peak's swing back
+};
+constexpr PlateauSearch usual_plateau{1, true};
+/// Elastic walls on a coarse grid meet within 5 % strain of their buckling.
+constexpr PlateauSearch short_plateau{1.0 / 3, false};
+
+/// Strain beyond `from` where the tangent becomes steep.
+std::optional<double> begin_of_rise(const SampledCurve& binned, const std::vector<double>& tangent,
+                                    double from, double steep, bool beyond_peaks)
 {
+  double highest = 0;
+  std::optional<double> begin;
+  for (std::size_t i = 0; i < tangent.size(); ++i) {
+    const bool rises = binned.strain[i] > from && tangent[i] > steep;
+    if (!rises)
+      begin.reset();
+    else if (!begin)
+      begin = binned.strain[i];
+    if (begin && (!beyond_peaks || binned.stress[i] > highest)) return begin;
+    highest = std::max(highest, binned.stress[i]);
+  }
+  return begin;
+}
+
+std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, double modulus,
+                                    const PlateauSearch& search)
+{
+  const double scale = search.scale;
   const std::vector<double> tangent = local_slope(binned, tangent_reach * scale);
   std::vector<double> on_plateau;
   for (std::size_t i = 0; i < tangent.size(); ++i)
@@ -153,9 +177,7 @@ std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, dou
   const double steep = std::max(2.5 * base, base + 0.03 * modulus);
 
   Plateau plateau;
-  for (std::size_t i = 0; i < tangent.size() && !plateau.end; ++i)
-    if (binned.strain[i] > knee + 0.05 * scale && tangent[i] > steep)
-      plateau.end = binned.strain[i];
+  plateau.end = begin_of_rise(binned, tangent, knee + 0.05 * scale, steep, search.beyond_peaks);
   const double to = plateau.end ? *plateau.end - 0.03 * scale : binned.strain.back();
   if (to < knee + 0.04 * scale) return std::nullopt;
   const std::optional<Line> line = fit_between(binned, knee + 0.02 * scale, to, 5);
@@ -194,7 +216,7 @@ std::optional<CurvePoint> meeting(const Line& a, const Line& b)
 /// elastic one far before the knee, or nowhere. A short one that falls is what follows a peak.
 std::optional<Plateau> find_plateau(const SampledCurve& binned, double knee, const Line& rise)
 {
-  const std::optional<Plateau> usual = find_plateau(binned, knee, rise.slope, 1);
+  const std::optional<Plateau> usual = find_plateau(binned, knee, rise.slope, usual_plateau);
   if (!usual) return usual;
   const std::optional<CurvePoint> point = meeting(rise, usual->line);
   if (point && point->strain > before_knee * knee) return usual;

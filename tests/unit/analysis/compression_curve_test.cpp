@@ -234,6 +234,30 @@ TEST(CompressionCurve, FallBehindAPeakIsNotAPlateau)
   EXPECT_NEAR(found.densification->stress, rows(found.densification->strain), 40e6);
 }
 
+TEST(CompressionCurve, SwingBackBehindAPeakIsNotTheEndOfThePlateau)
+{
+  // Walls that yield all at once at 50 m/s: the stress falls by half, comes back by as much as half
+  // of that, and goes on as a plateau from 10 to 25 % strain.
+  const auto overshooting = [](double strain) {
+    double stress = 3250e6 * strain;
+    for (const auto& [from, more] :
+         {std::pair(0.029, -5300e6), std::pair(0.05, 2550e6), std::pair(0.1, -400e6),
+          std::pair(0.25, 1500e6), std::pair(0.3, 2000e6)})
+      stress += more * synthetic::ramp(strain - from, 0.0005);
+    return stress;
+  };
+  for (const double noise : {0.0, 0.02}) {
+    const CompressionProperties found = read(noisy(sample(overshooting, 0.45, 6000), noise));
+    ASSERT_TRUE(found.buckling && found.densification) << found.remark;
+    // On the plateau's line, which the swing is part of.
+    EXPECT_NEAR(found.buckling->strain, 0.019, 0.004);
+    EXPECT_NEAR(found.buckling->stress, 3250e6 * found.buckling->strain, 2e6);
+    EXPECT_NEAR(*found.plateau_slope, 100e6, 100e6);
+    // The line through 176 and 352 MPa, of 3600 MPa, is at 89 MPa there.
+    EXPECT_NEAR(found.densification->strain, 0.278, 0.006);
+  }
+}
+
 TEST(CompressionCurve, CurveThatEndsEarlyHasNoDensification)
 {
   const CompressionProperties found = read(sample(wood, 0.25, 2500));
