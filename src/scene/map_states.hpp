@@ -31,12 +31,14 @@ std::vector<std::string> words_of(const Parameter<Owner>& row)
   return words;
 }
 
-/// The word of a choice where the scene says nothing; empty where it has to say something.
+/// The word of a choice where the scene says nothing; empty where it has to say something, or where
+/// other maps decide.
 template <class Owner>
 std::string word_left_out(const Parameter<Owner>& row)
 {
   if (row.need == Need::required) return "";
-  return row.schema().contains("enum") ? row.write(Owner{}, 2).scalar : key_absent;
+  if (!row.schema().contains("enum")) return key_absent;
+  return row.default_text.empty() ? row.write(Owner{}, 2).scalar : "";
 }
 
 template <class Owner>

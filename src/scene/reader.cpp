@@ -95,6 +95,23 @@ Definitions definitions_of(const Node& root, int dimensions)
   return definitions;
 }
 
+/// Known before any key is read, as conditions look at it. Wood under a piston takes the step that
+/// comes to an answer in least time (docs/formulations.md), unless a key of the other one is given.
+FormulationKind default_formulation(const Node& root)
+{
+  Numerics of_cells, of_grid;
+  of_cells.formulation = FormulationKind::total_lagrangian;
+  of_grid.formulation = FormulationKind::updated_lagrangian;
+  const bool needs_grid =
+      std::ranges::any_of(parameters<Numerics>(), [&](const Parameter<Numerics>& row) {
+        return !row.applies(of_cells, 2) && row.applies(of_grid, 2) &&
+               find(root, joined("numerics", row.key)) != nullptr;
+      });
+  const bool crushes_wood =
+      find(root, "specimen.micrograph") != nullptr && find(root, "loading") != nullptr;
+  return (crushes_wood && !needs_grid ? of_cells : of_grid).formulation;
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides)
@@ -105,6 +122,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 
   SceneKeys keys;
   keys.dimensions = dimensions_of(root);
+  keys.numerics.formulation = default_formulation(root);
   Problems problems;
   const Definitions definitions = definitions_of(root, keys.dimensions);
   read_map(Given{root, "", problems, definitions}, keys, keys.dimensions);

@@ -50,7 +50,9 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
       "formulation: total_lagrangian"};
   static const std::vector<Parameter<N>> rows{
       member<N>(
-          "formulation", &N::formulation, {},
+          "formulation", &N::formulation,
+          {.default_text = "total_lagrangian where a piston crushes a micrograph and no key of the "
+                           "other one is given; else updated_lagrangian"},
           "weights in the present configuration, on a grid that forgets: for what tears, "
           "mixes or flows; or in the reference one, on cells that are locations, with contact "
           "of the body with itself: for crushing"),

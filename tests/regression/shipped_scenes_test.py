@@ -45,9 +45,10 @@ class ShippedScenes(ProgramTest):
         self.assertAlmostEqual(found["strain"], 0.2, places=9)
         self.assertLess(abs(found["largest_energy_error"]), 0.005)
 
-    def test_an_own_micrograph_needs_eight_lines(self):
+    def test_an_own_micrograph_needs_seven_lines(self):
         folder = self.folder / "own"
         self.run_scene("tutorial/own_micrograph.yaml", "--output", folder)
+        self.assertIn("formulation: total_lagrangian", (folder / "scene.yaml").read_text())
         found = summary(folder)
         self.assertAlmostEqual(found["strain"], 0.1, places=9)
         self.assertLess(abs(found["largest_energy_error"]), 0.005)

@@ -174,6 +174,7 @@ class Warnings(ProgramTest):
         (self.folder / "picture.bmp").write_bytes(gray_bmp(rows))
         file = self.folder / "picture.yaml"
         file.write_text("specimen: {micrograph: picture.bmp, pixel_size: 25 um}\n"
+                        "numerics: {formulation: updated_lagrangian}\n"
                         "grid: {cells: [20, 20]}\nsteps: 2\noutput: {snapshots: 0}\n"
                         "loading: {piston: right, speed: 1 m/s}\n")
         # 36 of 12 * 40 + 36 locations.

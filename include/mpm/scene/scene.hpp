@@ -132,7 +132,7 @@ enum class Surface {
 };
 
 struct Numerics {
-  FormulationKind formulation = FormulationKind::updated_lagrangian;
+  FormulationKind formulation = FormulationKind::updated_lagrangian;  ///< or by what is crushed
   Surface surface = Surface::stairs;
   /// Over the modulus of the fastest wave times the depth over the size of a location, of the
   /// pressure of a wall that pushes, and of half of that across a flush face in total_lagrangian,

@@ -136,7 +136,9 @@ TEST(FittedCells, KeepAUniformStressInAnAffineMotion)
   block.move([&](const Vec<2>& x) -> Vec<2> { return gradient * x; });
   const double ratio = (Eigen::Matrix2d::Identity() + gradient).determinant();
   for (LocalIndex node = 0; node < 16; ++node)
-    if (Block::within(node)) EXPECT_LT(block.forces()[std::size_t(node)].norm(), 1e-14) << node;
+    if (Block::within(node)) {
+      EXPECT_LT(block.forces()[std::size_t(node)].norm(), 1e-14) << node;
+    }
   alignas(lane_alignment) double first[6 * lane_count], stress[6 * lane_count];
   block.law().cauchy_stress(block.particles().state().block(0), first);
   for (LocalIndex p = 0; p < block.particles().size(); ++p) {

@@ -99,7 +99,9 @@ void expect_whole_sums(const Case<Dim>& lattice)
         int& of_node = body[std::size_t(node)];
         const int own = lattice.body_of[lattice.number_of(at)];
         // Who has a node has it alone, or body 2 holds on.
-        if (of_node >= 0 && lattice.splits(mesh.nodes[std::size_t(node)])) ASSERT_EQ(of_node, own);
+        if (of_node >= 0 && lattice.splits(mesh.nodes[std::size_t(node)])) {
+          ASSERT_EQ(of_node, own);
+        }
         of_node = own;
       }
       ++cell;

@@ -159,7 +159,7 @@ TEST_F(EffectiveScene, NamesDefaultsInReadableUnits)
   std::ostringstream written;
   write_effective_scene(written, read(smallest));
   for (const char* line : {"  youngs_modulus: 10.6 GPa\n", "  density: 1500 kg/m^3\n",
-                           "  pixel_size: [2.3 um, 2.3 um]\n", "  shape_function: gimp\n",
+                           "  pixel_size: [2.3 um, 2.3 um]\n", "  formulation: total_lagrangian\n",
                            "    strains: [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]\n"})
     EXPECT_THAT(written.str(), testing::HasSubstr(line));
 }

@@ -33,7 +33,7 @@ TEST_F(FailureInScenes, IsAtEitherLimitOrBoth)
 
 TEST_F(FailureInScenes, IsOfCellsAlone)
 {
-  EXPECT_THAT(problems(with("{stretch: 4}", flows, "{}")),
+  EXPECT_THAT(problems(with("{stretch: 4}", flows, "{scheme: flip}")),
               ElementsAre("a.yaml:9:3: material.failure is a map (only cells of "
                           "total_lagrangian fail). Leave it out, or set numerics.formulation: "
                           "total_lagrangian."));

@@ -24,6 +24,31 @@ TEST_F(SceneDefaults, SixLinesCrushAMicrograph)
   EXPECT_EQ(std::get<Loading>(scene.motion).strain, 0.6);
 }
 
+TEST_F(SceneDefaults, WoodUnderAPistonIsCrushedByCells)
+{
+  using enum FormulationKind;
+  const auto formulation = [&](const std::string& text, const std::vector<std::string>& set = {}) {
+    return read(text, set).numerics.formulation;
+  };
+  EXPECT_EQ(formulation(smallest), total_lagrangian);
+  EXPECT_EQ(formulation(smallest, {"specimen.depth=0.1 mm"}), total_lagrangian);
+  EXPECT_EQ(formulation(smallest + "numerics: {plane: stress, mass_scaling: 0.7}\n"),
+            total_lagrangian);
+  EXPECT_EQ(formulation(smallest + "numerics: {formulation: updated_lagrangian}\n"),
+            updated_lagrangian);
+  for (const char* of_grid : {"shape_function=gimp", "domain=0.5", "scheme=apic", "pic_share=0.1",
+                              "update_order=usl", "f_bar=false"})
+    EXPECT_EQ(formulation(smallest, {std::string("numerics.") + of_grid}), updated_lagrangian)
+        << of_grid;
+  EXPECT_EQ(formulation("specimen: {micrograph: wood.png, pixel_size: 1 um}\n"
+                        "free_motion: {end_time: 1 us}\n"),
+            updated_lagrangian);
+  EXPECT_EQ(formulation("specimen:\n  size: [1 mm, 1 mm]\n"
+                        "  shapes: [{disc: {centre: [0.5 mm, 0.5 mm], radius: 0.4 mm}}]\n"
+                        "loading: {speed: 1 m/s}\n"),
+            updated_lagrangian);
+}
+
 TEST_F(SceneDefaults, WithoutMaterialTheWallIsNairns2006)
 {
   const Scene scene = read(smallest);
