@@ -263,13 +263,12 @@ void LocationCells<Dim>::fill_motion(Body<Dim>& body, const MeshNodes<Dim>& node
   const int position = motion.find("position"), velocity = motion.find("velocity");
   const std::size_t width = NodeFields<Dim>::record_width;
   for (LocalIndex p = 0; p < body.particles.size(); ++p) {
-    const LocalIndex* node =
-        &corner_nodes_[std::size_t(p / lane_count) * corners_of_cell * lane_count + p % lane_count];
+    const CellNodes corners = nodes_of(p);
     for (int d = 0; d < Dim; ++d) {
       double place = 0, speed = 0;
-      for (int c = 0; c < corners_of_cell; ++c) {
-        place += nodes.place_of(node[c * lane_count])[d];
-        speed += fields.updated[std::size_t(node[c * lane_count]) * width + std::size_t(d)];
+      for (const LocalIndex node : corners) {
+        place += nodes.place_of(node)[d];
+        speed += fields.updated[std::size_t(node) * width + std::size_t(d)];
       }
       motion(position + d, p) = place / corners_of_cell;
       motion(velocity + d, p) = speed / corners_of_cell;

@@ -140,12 +140,14 @@ void TotalLagrangian<Dim>::list_node_terms()
   node_terms_.assign(std::size_t(nodes_->size()) * corners, std::int32_t(values));
   std::vector<int> filled(std::size_t(nodes_->size()), 0);
   for (std::size_t b = 0; b < cells_.size(); ++b)
-    for (LocalIndex p = 0; p < setup_.bodies[b].particles.size(); ++p)
+    for (LocalIndex p = 0; p < setup_.bodies[b].particles.size(); ++p) {
+      const auto nodes = cells_[b].nodes_of(p);
       for (int c = 0; c < corners; ++c) {
-        const auto node = std::size_t(cells_[b].nodes_of(p)[std::size_t(c)]);
+        const auto node = std::size_t(nodes[std::size_t(c)]);
         node_terms_[node * corners + std::size_t(filled[node]++)] =
             std::int32_t(first_force_[b] + LocationCells<Dim>::force_at(p, c));
       }
+    }
 }
 
 /// Cells are at rest where their corners stand.
@@ -170,8 +172,7 @@ void TotalLagrangian<Dim>::add_masses()
     const ColumnGroup& motion = particles.motion();
     const int velocity = motion.find("velocity"), mass = motion.find("mass");
     for (LocalIndex p = 0; p < particles.size(); ++p)
-      for (int c = 0; c < corners; ++c) {
-        const LocalIndex node = cells_[b].nodes_of(p)[std::size_t(c)];
+      for (const LocalIndex node : cells_[b].nodes_of(p)) {
         const double share = motion(mass, p) / corners;
         fields_->mass_of(node) += share;
         for (int d = 0; d < Dim; ++d)
