@@ -19,6 +19,7 @@ specimen:
   shapes:
     - box: {lower: [0 mm, 0 mm], upper: [1 mm, 1 mm]}
 grid: {cells: [8, 8]}
+numerics: {formulation: updated_lagrangian}
 loading: {piston: right, speed: 10 m/s}
 """
 
@@ -32,7 +33,7 @@ BROKEN = (
      "specimen.pixel_size": "1 um",  # without a micrograph
      "loading.strain": 2, "output.checkpoints.steps": 5},
     {"material.poisson_ratio": 0.7, "material.youngs_modulus": -1, "grid.particles_per_cell": 9,
-     "numerics": {"formulation": "updated_lagrangian", "mass_scaling": 0.5},
+     "numerics.mass_scaling": 0.5,  # of the other formulation
      "loading.lateral": ["rigid"], "output.compress": 2},
     {"material.density": "1000", "material.law": "von_misses", "loading.load_cell.cells": "many",
      "free_motion.end_time": 3},

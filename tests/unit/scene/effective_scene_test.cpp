@@ -157,11 +157,18 @@ free_motion: {end_time: 1 us, sides: [rigid, rigid, free, free, periodic, period
 TEST_F(EffectiveScene, NamesDefaultsInReadableUnits)
 {
   std::ostringstream written;
-  write_effective_scene(written, read(smallest));
+  write_effective_scene(written, read(smallest + "numerics: {formulation: updated_lagrangian}\n"));
   for (const char* line : {"  youngs_modulus: 10.6 GPa\n", "  density: 1500 kg/m^3\n",
-                           "  pixel_size: [2.3 um, 2.3 um]\n", "  formulation: total_lagrangian\n",
+                           "  pixel_size: [2.3 um, 2.3 um]\n", "  shape_function: gimp\n",
                            "    strains: [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]\n"})
     EXPECT_THAT(written.str(), testing::HasSubstr(line));
+}
+
+TEST_F(EffectiveScene, NamesTheFormulationThatFollowsFromWhatIsCrushed)
+{
+  std::ostringstream written;
+  write_effective_scene(written, read(smallest));
+  EXPECT_THAT(written.str(), testing::HasSubstr("  formulation: total_lagrangian\n"));
 }
 
 }  // namespace
