@@ -25,13 +25,6 @@ MeshNodes<Dim>::MeshNodes(std::vector<IndexVec<Dim>> corners, std::vector<char> 
 }
 
 template <int Dim>
-void MeshNodes<Dim>::lead(LocalIndex node)
-{
-  led_.resize(owned_.size(), 0);
-  led_[std::size_t(node)] = 1;
-}
-
-template <int Dim>
 Vec<Dim> MeshNodes<Dim>::position(LocalIndex node) const
 {
   return Eigen::Map<const Vec<Dim>>(place_of(node));

@@ -13,6 +13,8 @@ void TotalLagrangian<Dim>::take_rigid_bodies(std::span<const CellNodes> cells)
 {
   rigid_cells_.assign(cells.begin(), cells.end());
   led_.clear();
+  if (setup_.rigid.empty()) return;
+  std::vector<char> is_led(std::size_t(nodes_->size()), 0);
   for (const RigidCells<Dim>& rigid : setup_.rigid) {
     // Ranks on which a node has none of the body's cells lead it too.
     std::vector<double> has_it(std::size_t(nodes_->size()), 0.0);
@@ -22,11 +24,12 @@ void TotalLagrangian<Dim>::take_rigid_bodies(std::span<const CellNodes> cells)
     halo_->sum(std::array{NodeColumn{has_it.data(), 1, 1}});
     std::vector<LocalIndex>& led = led_.emplace_back();
     for (LocalIndex node = 0; node < nodes_->size(); ++node) {
-      if (!(has_it[std::size_t(node)] > 0) || nodes_->is_led(node)) continue;
-      nodes_->lead(node);
+      if (!(has_it[std::size_t(node)] > 0) || is_led[std::size_t(node)]) continue;
+      is_led[std::size_t(node)] = 1;
       led.push_back(node);
     }
   }
+  nodes_->set_led(std::move(is_led));
 }
 
 /// To nodes without a mass of their own, which start as fast as their body does.

@@ -47,8 +47,8 @@ class MeshNodes final : public Nodes<Dim> {
   /// the largest component of the velocities of nodes that are not free, m/s.
   double move(NodeFields<Dim>& fields, double dt);
 
-  /// A node that is led goes with a rigid body: walls leave it alone.
-  void lead(LocalIndex node);
+  /// Which nodes go with a rigid body: walls leave them alone. At the start none.
+  void set_led(std::vector<char> led) { led_ = std::move(led); }
   bool is_led(LocalIndex node) const { return !led_.empty() && led_[std::size_t(node)]; }
   /// Which nodes fly freely, as no cell of this rank holds them any more; at the start none.
   void set_free(std::vector<char> free) { free_ = std::move(free); }
