@@ -7,8 +7,8 @@ table.json holds, for each scene: its file, what `--set` makes of a level (`{2*n
 the levels, and for each method the errors that they have. An error is a key of exact_solution in
 summary.json ("error"), or what a function of measures/ ("measure", "options") finds over what is
 "exact", less one. "floor" is what that function or that value is uncertain by, "bound" says that the
-exact value is one from below, "quick" that even fewer levels run with --levels; "remark" is for the
-page. --write puts the measured errors there, for a change that is meant to alter them.
+exact value is one from below; "remark" is for the page. --write puts the measured errors there, for
+a change that is meant to alter them.
 """
 import argparse
 import itertools
@@ -88,8 +88,6 @@ def climb(given, case, folder):
     """Runs the levels of a case with every method, prints the errors, and keeps or compares them."""
     found = []
     levels = case["levels"][:given.levels]
-    if given.levels:
-        levels = levels[:case.get("quick")]
     for method, known in case["errors"].items():
         if given.method and method not in given.method:
             continue

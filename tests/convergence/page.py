@@ -13,7 +13,7 @@ INTRODUCTION = """# Verification
 
 Written by `tests/convergence/page.py` from `tests/convergence/table.json`; the errors there are measured
 by `tests/convergence/ladders.py build/mpm_par --write` and held by `sh jobscripts/test.sh -L convergence`:
-one that grows by more than a tenth fails. The two coarsest grids run with the other tests.
+one that grows by more than a tenth fails. The coarsest grid runs with the other tests.
 
 A scene states its exact solution (`exact_solution` in docs/input_reference.md), in which X and Y are the
 place at t = 0; or a scalar of the run, named above its table, is compared with its exact value. Where no
