@@ -4,6 +4,10 @@ find_package(MPI 3.0 REQUIRED COMPONENTS C CXX)
 
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc>=3.15)
+# Debian's tells how it was built itself, which is not for those who use it.
+set(petsc_options ${PETSC_CFLAGS_OTHER})
+list(FILTER petsc_options EXCLUDE REGEX "^-(Wdate-time|D_FORTIFY_SOURCE=.*)$")
+set_target_properties(PkgConfig::PETSC PROPERTIES INTERFACE_COMPILE_OPTIONS "${petsc_options}")
 pkg_check_modules(UDUNITS REQUIRED IMPORTED_TARGET udunits)
 pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 

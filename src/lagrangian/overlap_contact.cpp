@@ -110,7 +110,7 @@ void OverlapContact<Dim>::list_pressing()
   for (std::size_t entry = 0; entry < found_.size();) {
     const std::size_t k = found_.pair(entry);
     Pressing& pair = sieve.item();
-    pair = {close_[k].cells, LocalIndex(k), close_[k].touched, LocalIndex(entry)};
+    pair = {close_[k].cells, LocalIndex(k), close_[k].touched, LocalIndex(entry), 0, 0, 0, 0};
     do {
       const double overlap = found_.overlap(entry);
       pair.overlap += std::max(0.0, overlap);

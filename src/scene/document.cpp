@@ -56,7 +56,7 @@ std::string Node::shown() const
       return "empty";
     case Kind::scalar:
       return !quoted && split_number_and_unit(scalar) ? shortened(scalar)
-                                                      : "'" + shortened(scalar) + "'";
+                                                      : fmt::format("'{}'", shortened(scalar));
     case Kind::map:
       return "a map";
     case Kind::list:

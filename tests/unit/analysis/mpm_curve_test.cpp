@@ -85,7 +85,7 @@ TEST(MpmCurve, BadInputIsStatusTwoWithOneClearLine)
   const Outcome column = run(file);
   EXPECT_EQ(column.status, 2);
   EXPECT_THAT(column.text, HasSubstr("no column 'stress' (there are: strain, force)"));
-  const Outcome missing = run(scratch("not there.csv").append("'").insert(0, "'"));
+  const Outcome missing = run(std::string("'").append(scratch("not there.csv")).append("'"));
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.text, HasSubstr("cannot be read"));
   const Outcome unit = run(file + " --stress-column force --discard '3 kg'");

@@ -141,8 +141,9 @@ TEST_F(InputErrors, AListEntryIsNamedByItsPosition)
 TEST_F(InputErrors, AValueOverSeveralLinesIsShownOnOne)
 {
   EXPECT_THAT(problems(smallest + "steps: |\n  many\n  more " + std::string(80, 'x') + "\n"),
-              ElementsAre("a.yaml:7:8: steps is 'many more " + std::string(50, 'x') +
-                          "...' (must be a number). Write e.g. 10."));
+              ElementsAre(std::string("a.yaml:7:8: steps is 'many more ")
+                              .append(50, 'x')
+                              .append("...' (must be a number). Write e.g. 10.")));
 }
 
 TEST_F(InputErrors, ASoundSceneHasNone)

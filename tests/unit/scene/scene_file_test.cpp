@@ -77,8 +77,8 @@ TEST_F(SceneFile, WithAnchorsThatMultiplyIsRefusedAtOnce)
   // Nine lines that stand for 10^9 values.
   std::string text = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int k = 1; k < 9; ++k) {
-    const std::string last = "*a" + std::to_string(k - 1);
-    text += "a" + std::to_string(k) + ": &a" + std::to_string(k) + " [";
+    const std::string last = "*a" + std::to_string(k - 1), name = std::to_string(k);
+    text.append("a").append(name).append(": &a").append(name).append(" [");
     for (int i = 0; i < 10; ++i) text += (i > 0 ? ", " : "") + last;
     text += "]\n";
   }
