@@ -186,7 +186,8 @@ double differenced_wave_squared(const MaterialPoint<Dim>& point, double density)
       acoustic.col(d) =
           (stress_after(change) - stress_after(-change)) / (2 * step) * n - tau * n * a.dot(n);
     }
-    largest = std::max(largest, acoustic.eigenvalues().real().maxCoeff());
+    // Of dynamic size, Eigen's solver is compiled once for both dimensions.
+    largest = std::max(largest, Eigen::MatrixXd(acoustic).eigenvalues().real().maxCoeff());
   }
   return largest / density;
 }
