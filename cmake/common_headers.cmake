@@ -1,5 +1,5 @@
-# Headers that nearly every file reads, compiled once: a file includes what it uses all the same, which a
-# Developer build sees, as it does without. Fuzzers give flags of their own to some of the libraries.
+# Headers that nearly every file reads, compiled once. A file includes what it uses all the same: Developer
+# builds, which do without, see what is missing. Fuzzers give flags of their own to some of the libraries.
 if(CMAKE_BUILD_TYPE STREQUAL "Developer" OR MPM_BUILD_FUZZERS)
   set(CMAKE_DISABLE_PRECOMPILE_HEADERS ON)
 endif()

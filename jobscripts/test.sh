@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.."
 sh jobscripts/build.sh
 . jobscripts/environment.sh
 cd build
-# Measuring wants the machine for itself, and ladders take long: only where asked for by name.
+# Measuring wants the machine for itself, ladders and building anew take long: only where asked for by name.
 case " $* " in *performance* | *convergence* | *stability* | *long*) ;;
   *) set -- -LE "performance|convergence|stability|long" "$@" ;; esac
 exec ctest --output-on-failure --no-tests=error -j"$(nproc)" "$@"
