@@ -20,10 +20,12 @@ class Damping final : public Load<Dim> {
     const double share = std::expm1(-rate_ * dt) / dt;
     const NodeColumn momentum = fields.momentum_column();
     for (const NodeRun<Dim>& run : runs)
-      for (LocalIndex node = run.first; node < run.first + run.length; ++node)
+      for (LocalIndex node = run.first; node < run.first + run.length; ++node) {
+        if (!(fields.loaded_mass_of(node) > 0)) continue;
         for (int d = 0; d < Dim; ++d)
           fields.load_force[std::size_t(node) * Dim + d] +=
               share * momentum.values[std::size_t(node) * momentum.stride + d];
+      }
   }
 
  private:

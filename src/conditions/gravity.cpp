@@ -23,7 +23,7 @@ class Gravity final : public Load<Dim> {
     for (const NodeRun<Dim>& run : runs)
       for (LocalIndex node = run.first; node < run.first + run.length; ++node)
         for (int d = 0; d < Dim; ++d)
-          fields.load_force[std::size_t(node) * Dim + d] += fields.mass_of(node) * g[d];
+          fields.load_force[std::size_t(node) * Dim + d] += fields.loaded_mass_of(node) * g[d];
   }
 
  private:

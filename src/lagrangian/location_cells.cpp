@@ -288,7 +288,8 @@ void LocationCells<Dim>::find_least_stretches(const MeshNodes<Dim>& nodes,
     const Lanes middle = least_stretch_squared(now),
                 corner = stdx::min(bent_share(now, at, frame_) / load(rest_shares_.data() + first),
                                    Lanes(1.0));
-    store(middle * corner * stdx::abs(corner), squared.data() + first);
+    store(stdx::max(middle * corner * stdx::abs(corner), Lanes(least_of_all)),
+          squared.data() + first);
   }
 }
 

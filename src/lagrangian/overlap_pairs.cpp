@@ -14,19 +14,26 @@
 
 namespace mpm {
 
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
 /// Bodies that are apart can anywhere. Neighbours with a face in common cannot, nor those around a
 /// node or edge where all cells are; and what is behind the outer layer on both sides does not
 /// before the layers themselves.
 template <int Dim>
 bool OverlapContact<Dim>::can_meet(LocalIndex own, LocalIndex other) const
 {
-  const OpenCorners<Dim>& open = open_[std::size_t(own)];
-  if (open.is_behind() && open_[std::size_t(other)].is_behind()) return false;
+  const OpenCorners<Dim>&open = open_[std::size_t(own)], &theirs = open_[std::size_t(other)];
+  if (open.is_behind() && theirs.is_behind()) return false;
   if (is_rigid(own) && is_rigid(other)) return false;
   if (bodies_.are_apart(of_body_[std::size_t(own)], of_body_[std::size_t(other)])) return true;
   const IndexVec<Dim> apart = this->apart(own, other);
   if (apart.cwiseAbs().maxCoeff() > 1) return true;
-  return apart.cwiseAbs().sum() > 1 && open.towards(apart);
+  // A third body may be apart from one of them alone: both ranks of a pair have to agree.
+  return apart.cwiseAbs().sum() > 1 && (open.towards(apart) || theirs.towards(-apart));
 }
 
 template <int Dim>
@@ -44,7 +51,6 @@ void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
   locations_.resize(own);
   open_.resize(own);
   of_body_.resize(own);
-  images_.assign(own, itself);
   for (std::size_t c = 0; c < own; ++c) {
     stiffness_[c] = cells_[c].stiffness;
     locations_[c] = cells_[c].location;
@@ -79,13 +85,22 @@ double OverlapContact<Dim>::largest_way(const MeshNodes<Dim>& nodes) const
   return reach_ * std::sqrt(squared);
 }
 
-/// Whether all axes along which an image lies elsewhere are periodic.
+/// As many periods to either side as cells are apart, `boxes` of all ranks': places are not taken
+/// back into the first period, and what slides along a periodic side goes on and on.
 template <int Dim>
-bool OverlapContact<Dim>::is_there(int image) const
+void OverlapContact<Dim>::count_images(std::span<const double> boxes, double skin)
 {
-  for (int d = 0; d < Dim; ++d, image /= 3)
-    if (image % 3 != 1 && period_[d] == 0) return false;
-  return true;
+  for (int d = 0; d < Dim; ++d) {
+    periods_[d] = 0;
+    if (period_[d] == 0) continue;
+    double lower = infinity, upper = -infinity;
+    for (std::size_t box = 0; box < boxes.size(); box += 2 * Dim) {
+      lower = std::min(lower, boxes[box + std::size_t(d)]);
+      upper = std::max(upper, boxes[box + std::size_t(Dim + d)]);
+    }
+    if (lower < upper)
+      periods_[d] = LocalIndex(std::floor((upper - lower + skin) / (period_[d] * size_[d])));
+  }
 }
 
 /// How far an image lies from the cell itself, m.
@@ -93,7 +108,11 @@ template <int Dim>
 Vec<Dim> OverlapContact<Dim>::shift_of(int image) const
 {
   Vec<Dim> shift;
-  for (int d = 0; d < Dim; ++d, image /= 3) shift[d] = (image % 3 - 1) * period_[d] * size_[d];
+  for (int d = 0; d < Dim; ++d) {
+    const int places = 2 * periods_[d] + 1;
+    shift[d] = (image % places - periods_[d]) * period_[d] * size_[d];
+    image /= places;
+  }
   return shift;
 }
 
@@ -101,7 +120,6 @@ Vec<Dim> OverlapContact<Dim>::shift_of(int image) const
 template <int Dim>
 std::vector<Ghosts::Peer> OverlapContact<Dim>::add_candidates(double skin)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const int ranks = ranks_of(comm_), me = rank_of(comm_);
   Box mine;
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -113,11 +131,13 @@ std::vector<Ghosts::Peer> OverlapContact<Dim>::add_candidates(double skin)
     }
   }
   const std::vector<double> others = joined_over_ranks(comm_, mine);
+  count_images(others, skin);
+  images_.assign(cells_.size(), itself());
   std::vector<std::vector<double>> out(static_cast<std::size_t>(ranks));
   std::vector<Ghosts::Peer> peers(static_cast<std::size_t>(ranks));
   for (int r = 0; r < ranks; ++r)
-    for (int image = 0; image < images; ++image) {
-      if (!is_there(image) || (r == me && image == itself)) continue;
+    for (int image = 0; image <= 2 * itself(); ++image) {
+      if (r == me && image == itself()) continue;
       const Vec<Dim> shift = shift_of(image);
       const auto moved = [&](Box box) {
         for (std::size_t d = 0; d < box.size(); ++d) box[d] += shift[int(d % Dim)];
@@ -308,10 +328,10 @@ void OverlapContact<Dim>::answer(std::vector<Ghosts::Peer>& peers,
       at += 2;
       for (std::size_t k = 0; k < met; ++k, at += Dim) {
         // Seen from here, theirs is as far the other way.
-        const auto found = numbers.find(key_of(cell.item, &list[at], 2 * itself - cell.image));
+        const auto found = numbers.find(key_of(cell.item, &list[at], 2 * itself() - cell.image));
         // Where rounding keeps a pair out on this side it does not touch: the zero.
         sides[std::size_t(peer.rank)].sent.push_back(
-            {found == numbers.end() ? LocalIndex(pairs_.size()) : found->second, itself});
+            {found == numbers.end() ? LocalIndex(pairs_.size()) : found->second, itself()});
       }
     }
     peer.sent = std::move(sent);

@@ -58,7 +58,8 @@ void TotalLagrangian<Dim>::step(double dt)
   ++steps_;
   last_step_ = dt;
   add_forces(dt);
-  if (steps_ % steps_between_checks == 0) check();
+  // How fast bodies come is known from the first step on: their pairs are found before they meet.
+  if (steps_ == 1 || steps_ % steps_between_checks == 0) check();
 }
 
 template <int Dim>
@@ -190,8 +191,7 @@ void TotalLagrangian<Dim>::scale_masses()
       const Lanes least = column(least_stretches_[b].data(), block);
       if (stdx::none_of(least < bound)) [[likely]]
         continue;
-      // A cell at the point of being turned inside out becomes no heavier than this.
-      constexpr double least_of_all = 1e-4;
+      constexpr double least_of_all = LocationCells<Dim>::least_of_all;
       const Lanes added =
           load(particles.motion().block(block) + mass * lane_count) *
           (stdx::max(bound / stdx::max(least, Lanes(least_of_all)), Lanes(1.0)) - 1.0);
@@ -216,7 +216,7 @@ void TotalLagrangian<Dim>::scale_masses()
   for (LocalIndex node = 0; node < nodes_->size(); ++node) {
     double& mass = fields_->mass_of(node);
     const double added = mass;
-    mass += first_masses_[std::size_t(node)];
+    mass += is_rigid(node) ? rigid_mass_ : first_masses_[std::size_t(node)];
     const double more = mass - before[std::size_t(node)];
     // Mass that comes moves as its cells do, and mass that goes takes its velocity along: neither
     // heats, and neither slows what moves as a whole.

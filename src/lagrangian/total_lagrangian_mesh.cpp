@@ -182,15 +182,17 @@ void TotalLagrangian<Dim>::add_masses()
       }
   }
   halo_->sum(std::array{fields_->mass_column(), fields_->momentum_column()});
-  give_rigid_mass();
-  for (LocalIndex node = 0; node < nodes_->size(); ++node) {
+  for (LocalIndex node = 0; node < nodes_->size(); ++node)
     first_masses_.push_back(fields_->mass_of(node));
+  // What mass scaling adds has no weight, nor has what stands for a rigid body.
+  fields_->loaded_mass = first_masses_;
+  give_rigid_mass();
+  for (LocalIndex node = 0; node < nodes_->size(); ++node)
     for (int d = 0; d < Dim; ++d)
       fields_->updated_of(node)[d] =
           fields_
               ->momentum_force[std::size_t(node) * NodeFields<Dim>::record_width + std::size_t(d)] /
           fields_->mass_of(node);
-  }
 }
 
 template void TotalLagrangian<2>::make_mesh();

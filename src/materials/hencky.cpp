@@ -139,7 +139,7 @@ class Hencky final : public Law<2> {
 
   Lanes fastest_wave_squared(const double* state) const override
   {
-    return logarithmic_wave_squared(*this, density_, state);
+    return logarithmic_wave_squared(*this, density_, mu_, state);
   }
 
  private:

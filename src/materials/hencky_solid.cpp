@@ -96,7 +96,7 @@ class HenckySolid final : public Law<3> {
 
   Lanes fastest_wave_squared(const double* state) const override
   {
-    return logarithmic_wave_squared(*this, density_, state);
+    return logarithmic_wave_squared(*this, density_, mu_, state);
   }
 
  private:

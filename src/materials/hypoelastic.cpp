@@ -158,7 +158,7 @@ class Hypoelastic final : public Law<2> {
 
   Lanes fastest_wave_squared(const double* state) const override
   {
-    return logarithmic_wave_squared(*this, density_, state);
+    return logarithmic_wave_squared(*this, density_, stiffness_.in_plane(2, 2), state);
   }
 
  private:

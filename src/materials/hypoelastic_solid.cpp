@@ -109,7 +109,7 @@ class HypoelasticSolid final : public Law<3> {
 
   Lanes fastest_wave_squared(const double* state) const override
   {
-    return logarithmic_wave_squared(*this, density_, state);
+    return logarithmic_wave_squared(*this, density_, elastic_.shear_modulus(), state);
   }
 
  private:

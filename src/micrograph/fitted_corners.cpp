@@ -115,7 +115,7 @@ class Fitter {
       node.held[std::size_t(d)] =
           !lattice_.periodic[std::size_t(d)] && at[d] % lattice_.count[d] == 0;
     const bool hinge = node.cells == 0b0110u || node.cells == 0b1001u;
-    if (node.cells == 0 || hinge || !alike || lattice_.stays(corner)) return node;
+    if (node.cells == 0 || hinge || !alike || lattice_.stays(at)) return node;
     const auto has = [&](int c) { return bodies[std::size_t(c)] >= 0; };
     // Corner c of a cell: the cell lies below it where bit d is set.
     node.along = {has(1) != has(3), has(0) != has(2), has(2) != has(3), has(0) != has(1)};

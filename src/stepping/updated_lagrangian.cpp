@@ -68,6 +68,7 @@ void UpdatedLagrangian<Dim>::step(double dt)
 template <int Dim>
 GlobalIndex UpdatedLagrangian<Dim>::repartition(const Ownership<Dim>& ownership)
 {
+  check();  // what a new exchange knows nothing of
   counters_ = counters();
   Decomposition<Dim> next(decomposition().comm(), ownership);
   const GlobalIndex sent = redistribute(next, setup_.bodies).sent;

@@ -196,6 +196,66 @@ TYPED_TEST(OverlapContacts, HaveForcesThatAreTheGradientOfOneEnergyAndSumToZero)
     expect_gradient(thrown<TypeParam::dim>(7, TypeParam::period(), crooked));
 }
 
+/// As if something had slid along a periodic side.
+template <int Dim>
+void expect_that_whole_periods_are_nothing()
+{
+  const IndexVec<Dim> period = Sides<Dim, true>::period();
+  const Scene<Dim> scene = thrown<Dim>(3, period, 0.1);
+  Scene<Dim> slid = scene;
+  for (int c = 0; c < cells; ++c)
+    for (int k = 0; k < corners<Dim>; ++k)
+      slid.corners[std::size_t(corners<Dim> * c + k)][1] +=
+          (c % 5 - 1) * period[1] * size<Dim>()[1];
+  const Found alone = contact_of(MPI_COMM_SELF, scene);
+  expect_alike(contact_of(MPI_COMM_SELF, slid), alone);
+  expect_alike(contact_of(MPI_COMM_WORLD, slid), alone);
+}
+
+TEST(OverlapContact, IsTheSameWithAnyNumberOfPeriodsBetweenInThePlane)
+{
+  expect_that_whole_periods_are_nothing<2>();
+}
+
+TEST(OverlapContact, IsTheSameWithAnyNumberOfPeriodsBetweenInSpace)
+{
+  expect_that_whole_periods_are_nothing<3>();
+}
+
+/// Two cells across a node, on which a third body is open for one of them alone.
+TEST(OverlapContact, OfNeighboursIsThereWhereEitherSeesTheirCornerOpen)
+{
+  for (const int closed : {0, 1}) {
+    const int me = rank_of(MPI_COMM_WORLD), ranks = ranks_of(MPI_COMM_WORLD);
+    OverlapContact<2>::Cells own;
+    std::vector<Vec<2>> places;
+    for (int c = 0; c < 2; ++c) {
+      if (c % ranks != me) continue;
+      own.cells.push_back(cell_at<2>(int(own.cells.size()), IndexVec<2>(c, c)));
+      constexpr unsigned outer_layer = 1u << 4;
+      if (c == closed) own.cells.back().open = OpenCorners<2>(outer_layer);
+      for (int k = 0; k < corners<2>; ++k)
+        places.push_back((corner_at<2>(k) + Vec<2>::Constant(0.9 * c)).cwiseProduct(size<2>()));
+    }
+    Mesh<2> mesh(places);
+    OverlapContact<2> contact(MPI_COMM_WORLD, own, 2, BodyPairs(1), size<2>(), {0, 0});
+    contact.find_pairs(mesh.nodes, skin);
+    contact.measure(mesh.nodes);
+    contact.add_forces(mesh.fields);
+    std::vector<double> sums(4, 0.0);
+    for (LocalIndex n = 0; n < mesh.nodes.size(); ++n)
+      for (int d = 0; d < 2; ++d) {
+        sums[std::size_t(d)] += mesh.fields.force_of(n)[d];
+        sums[std::size_t(2 + d)] += std::abs(mesh.fields.force_of(n)[d]);
+      }
+    sum_over_ranks(MPI_COMM_WORLD, sums);
+    for (const std::size_t d : {0, 1}) {
+      EXPECT_GT(sums[2 + d], 0) << closed;
+      EXPECT_LT(std::abs(sums[d]), 1e-12 * sums[2 + d]) << closed;
+    }
+  }
+}
+
 TEST(OverlapContact, PushesTheNodesOfCellsThatAreSeenElsewhere)
 {
   Scene<2> scene = thrown<2>(7, IndexVec<2>::Zero(), 0.1);

@@ -235,6 +235,21 @@ TEST(LostParticle, StopsEveryRankInTheSameStepWithTheSameWords)
   EXPECT_EQ(largest_over_ranks(MPI_COMM_WORLD, steps), steps);
 }
 
+TEST(LostParticle, IsNotForgottenWhereBordersMoveBeforeTheNextCheck)
+{
+  constexpr double speed = 150;
+  BlockRun run(MPI_COMM_WORLD, two_rows(), {24, 20}, {gimp, flip, "musl"},
+               {{{12, 9}, {4, 3}, {speed, 0}}}, {});
+  std::string words;
+  for (int step = 0; step < 1000 && words.empty(); ++step) try {
+      run.advance(1, 0.4, speed);
+      run.stepper().repartition(run.stepper().decomposition().ownership());
+    } catch (const NumericalError& error) {
+      words = error.what();
+    }
+  EXPECT_THAT(words, HasSubstr("left the grid"));
+}
+
 TEST(LostParticle, StepOfMoreThanACellIsNamed)
 {
   BlockRun run(MPI_COMM_WORLD, two_rows(), {40, 20}, {gimp, flip, "musl"},

@@ -1,6 +1,8 @@
 // Whole scenes with loads, initial velocities and walls that follow tables, against exact
 // solutions.
 #include <mpm/core/error.hpp>
+#include <mpm/simulation/method.hpp>
+#include <mpm/simulation/model.hpp>
 
 #include <array>
 #include <cmath>
@@ -83,6 +85,52 @@ TEST(Gravity, AColumnThatIsLoadedSlowlyCarriesItsWeight)
     energy += 0.2 / slices * tau * tau / (2 * confined_modulus);
   }
   EXPECT_NEAR(column.last().elastic_energy / energy, 1, 0.002);
+}
+
+TEST(Gravity, DoesNotWeighWhatMassScalingAdds)
+{
+  // Cells at the foot are heavier by a tenth then.
+  const Outcome column = run_scene(
+      block("numerics: {formulation: total_lagrangian, mass_scaling: 1}\n"
+            "free_motion: {end_time: 0.8 s, sides: [symmetric, free, symmetric, symmetric]}\n"
+            "loads:\n"
+            "  - {kind: gravity, acceleration: [-60 m/s^2, 0 m/s^2], ramp_time: 0.2 s}\n"
+            "  - {kind: damping, rate: 60 1/s}\n"));
+  std::array<double, 20> stress{};
+  for (const Particle& p : column.particles) stress[std::size_t(p.start[0] * 20)] += p.stress[0];
+  for (std::size_t cell = 0; cell < 20; ++cell)
+    EXPECT_NEAR(stress[cell] / 16, -density * 60 * (1 - (double(cell) + 0.5) / 20),
+                0.002 * density * 60);
+}
+
+TEST(Gravity, AndDampingDoNotActOnWhatIsRigid)
+{
+  const scene::Scene scene = scene_of(R"(materials:
+  - {name: rubber, law: isotropic, youngs_modulus: 1 MPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
+  - {name: ram, law: rigid, velocity: [0.5 m/s, 0 m/s]}
+specimen:
+  size: [1 m, 0.2 m]
+  shapes:
+    - {box: {lower: [0 m, 0 m], upper: [0.1 m, 0.2 m]}, material: ram}
+    - {box: {lower: [0.2 m, 0 m], upper: [1 m, 0.2 m]}}
+grid: {cells: [20, 4], margin: 0.3 m}
+numerics: {formulation: total_lagrangian}
+free_motion: {end_time: 0.1 s}
+loads:
+  - {kind: gravity, acceleration: [2 m/s^2, -10 m/s^2]}
+  - {kind: damping, rate: 1e-9 1/s}
+)");
+  const Preparation<2> preparation(MPI_COMM_WORLD, scene, std::nullopt);
+  const Decomposition<2> decomposition(MPI_COMM_WORLD, preparation.partition.ownership);
+  const auto formulation =
+      make_formulation(scene, preparation.layout, decomposition,
+                       make_model(scene, preparation.specimen, preparation.layout, decomposition));
+  const TimeStep time_step = time_step_of(preparation.layout);
+  for (int k = 0; k < 10; ++k) formulation->step(time_step.first());
+  Vec<2> impulse = formulation->slots().loads.take_reaction().impulse;
+  sum_over_ranks(MPI_COMM_WORLD, std::span(impulse.data(), 2));
+  const double mass = 0.8 * 0.2 * density;
+  EXPECT_LT((impulse - mass * formulation->time() * Vec<2>(2, -10)).norm(), 1e-6 * impulse.norm());
 }
 
 TEST(Traction, ABarIsStressedByItAndGrowsLongerByTheForceOverTheStiffness)

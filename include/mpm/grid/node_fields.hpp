@@ -7,6 +7,7 @@
 #include <mpm/grid/grid_topology.hpp>
 
 #include <optional>
+#include <span>
 
 namespace mpm {
 
@@ -87,6 +88,11 @@ class NodeFields {
       return mass[std::size_t(node)];
   }
   double mass_of(LocalIndex node) const { return const_cast<NodeFields*>(this)->mass_of(node); }
+  /// kg, on which loads act.
+  double loaded_mass_of(LocalIndex node) const
+  {
+    return loaded_mass.empty() ? mass_of(node) : loaded_mass[std::size_t(node)];
+  }
   double* updated_of(LocalIndex node) { return updated.data() + std::size_t(node) * record_width; }
   double* force_of(LocalIndex node)
   {
@@ -125,6 +131,7 @@ class NodeFields {
   LaneVector<double> updated;            ///< {v after the step, its increment dt a}
   LaneVector<double> remapped_momentum;  ///< empty where it is not needed
   LaneVector<double> load_force;         ///< [N * Dim], empty where there are no loads
+  std::span<const double> loaded_mass;  ///< kg, [N]: what loads act on if not on all mass, or empty
   LaneVector<double> gradient_velocity;  ///< what the velocity gradient is taken of, or empty
   LaneVector<double> surface;            ///< kg m and kg m^2, as in `surface_of`, or empty
 

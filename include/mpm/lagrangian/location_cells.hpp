@@ -65,6 +65,8 @@ class LocationCells {
   /// The present places and velocities of the cells' centres.
   void fill_motion(Body<Dim>& body, const MeshNodes<Dim>& nodes,
                    const NodeFields<Dim>& fields) const;
+  /// A cell at the point of being turned inside out, or with a corner that is, counts as this.
+  static constexpr double least_of_all = 1e-4;
   /// Squares of the least stretch of every cell, [blocks * lanes]: in the middle, and less where a
   /// corner has become narrower than at rest.
   void find_least_stretches(const MeshNodes<Dim>& nodes, LaneVector<double>& squared) const;

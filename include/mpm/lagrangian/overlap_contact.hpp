@@ -79,9 +79,8 @@ class OverlapContact final : public SelfContact<Dim> {
     LocalIndex first, second;
     auto operator<=>(const Pair&) const = default;
   };
-  /// Of a cell across periodic sides, the first axis fastest; its own place is in the middle.
-  static constexpr int images = Dim == 2 ? 9 : 27, itself = images / 2;
-
+  /// Of a cell, `periods_` to either side, the first axis fastest: its own place is in the middle.
+  int itself() const { return ((2 * periods_).array() + 1).prod() / 2; }
   LocalIndex cells() const { return LocalIndex(cells_.size()); }
   double* values_of(LocalIndex cell) { return &values_[std::size_t(cell) * Overlaps::values]; }
   const double* values_of(LocalIndex cell) const
@@ -118,7 +117,7 @@ class OverlapContact final : public SelfContact<Dim> {
   bool can_meet(LocalIndex own, LocalIndex other) const;
   bool can_press(const Pair& pair, double way) const;
   void find_boxes();
-  bool is_there(int image) const;
+  void count_images(std::span<const double> boxes, double skin);
   Vec<Dim> shift_of(int image) const;
   std::vector<Ghosts::Peer> add_candidates(double skin);
   void add_ghosts(std::vector<Ghosts::Peer>& peers, const std::vector<std::vector<double>>& sent);
@@ -198,8 +197,9 @@ class OverlapContact final : public SelfContact<Dim> {
   BodyPairs bodies_;
   Vec<Dim> size_;
   IndexVec<Dim> period_;
-  double cell_volume_;  ///< m^3, in the plane m^2, of a cell at rest
-  double cell_face_;    ///< m^2, in the plane m, of a side of it
+  IndexVec<Dim> periods_ = IndexVec<Dim>::Zero();  ///< that an image may lie away
+  double cell_volume_;                             ///< m^3, in the plane m^2, of a cell at rest
+  double cell_face_;                               ///< m^2, in the plane m, of a side of it
   double skin_ = 0;
 
   /// Of this rank's cells, then of the ghosts.

@@ -111,7 +111,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   GlobalIndex take_cells(const Ownership<Dim>& ownership);
   IndexVec<Dim> period() const;
   /// Whether no cell that can be deformed has a node.
-  bool is_rigid(LocalIndex node) const { return first_masses_[std::size_t(node)] == rigid_mass_; }
+  bool is_rigid(LocalIndex node) const { return first_masses_[std::size_t(node)] == 0; }
   std::span<const NodeRun<Dim>> runs() const { return {&run_, 1}; }
 
   Decomposition<Dim> decomposition_;
@@ -135,7 +135,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   std::vector<double> friction_;  ///< [nodes * Dim], N; empty without
   double friction_work_ = 0;      ///< J, of this rank's nodes since the start
 
-  std::vector<double> first_masses_;          ///< kg, of the nodes
+  std::vector<double> first_masses_;          ///< kg, of the nodes, without `rigid_mass_`
   std::vector<CellNodes> rigid_cells_;        ///< of all rigid bodies in turn
   std::vector<std::vector<LocalIndex>> led_;  ///< nodes of each rigid body
   /// kg, of nodes that rigid bodies alone have: so much that friction knows that they do not give

@@ -16,12 +16,13 @@
 
 namespace mpm {
 
-/// R of F = R U, det F > 0, to 1e-4 for stretches from 1/3 to 3 (Newton's method: Higham 1986, SIAM
-/// J. Sci. Stat. Comput. 7:1160).
+/// R of F = R U, det F > 0, to rounding for stretches from 1/12 to 12 (Newton's method: Higham
+/// 1986, SIAM J. Sci. Stat. Comput. 7:1160). What is turned by less than a rotation and back gains
+/// or loses in every step.
 inline Tensor rotation_in(const Tensor& f)
 {
   Tensor r = f;
-  for (int iteration = 0; iteration < 4; ++iteration) {
+  for (int iteration = 0; iteration < 8; ++iteration) {
     const Tensor inverse = r.inverse();
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) r.a[i][j] = 0.5 * (r.a[i][j] + inverse.a[j][i]);
@@ -66,13 +67,15 @@ class BrickFlow {
       return {};
     }
     const Tensor rotation = rotation_of(columns);
-    t.deviator = deviator.turned(rotation.transposed());
+    const Symmetric trial = deviator.turned(rotation.transposed());
+    t.deviator = trial;
     const BentReturn flow = cut_back(*this, t, yield_, 1e-6 * shear_modulus_, plastic_strain);
     if (!flow.any) {
       take_no_moments<3>(columns);
       return flow;
     }
-    put_where(flow.yields, t.deviator.turned(rotation), deviator);
+    const Symmetric lost = t.deviator + Lanes(-1.0) * trial;
+    put_where(flow.yields, deviator + lost.turned(rotation), deviator);
     for (std::size_t k = 0; k < t.bending.size(); ++k) {
       double* stress = columns + k * lane_count;
       store(load(stress) - t.bending[k], stress);

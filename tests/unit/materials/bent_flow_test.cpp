@@ -251,5 +251,23 @@ TEST_F(BrickFlowTest, EndsOnTheYieldSurface)
   }
 }
 
+/// A rotation that is not quite one turns a deviator into more or less, with a pressure, each time.
+TEST_F(BrickFlowTest, StaysThereStepByStepHoweverMuchABrickIsSquashed)
+{
+  for (const double squashed : {0.33, 0.2, 0.12}) {
+    Brick brick = any(3 * limit);
+    const double wide = 1 / std::sqrt(squashed);
+    brick.deformation = Eigen::AngleAxisd(0.7, Vec<3>(1, 2, 3).normalized()).toRotationMatrix() *
+                        Vec<3>(wide, wide, squashed).asDiagonal();
+    ASSERT_TRUE(flow_of(brick).any);
+    const Matrix deviator = brick.deviator;
+    double strain = 0;
+    for (int step = 0; step < 1000; ++step) strain += flow_of(brick).plastic_strain[0];
+    EXPECT_LT(std::abs(brick.deviator.trace()), 1e-9 * limit) << squashed;
+    EXPECT_LT((brick.deviator - deviator).norm(), 1e-5 * limit) << squashed;
+    EXPECT_LT(strain, 1e-6) << squashed;
+  }
+}
+
 }  // namespace
 }  // namespace mpm

@@ -9,14 +9,15 @@ namespace {
 
 /// Particles with the deformation gradients `states`, each reached in many steps so that the rate
 /// form follows the logarithm.
-Body<2> body_of(Form form, const std::vector<Eigen::Matrix2d>& states)
+Body<2> body_of(Form form, const std::vector<Eigen::Matrix2d>& states,
+                const IsotropicConstants& elastic = wall)
 {
   std::unique_ptr<Law<2>> law;
   if (form == Form::logarithmic)
-    law = make_hencky(PlaneAssumption::strain, wall, density, std::nullopt);
+    law = make_hencky(PlaneAssumption::strain, elastic, density, std::nullopt);
   else
     law = make_hypoelastic(PlaneAssumption::strain,
-                           PlaneStiffness::isotropic(PlaneAssumption::strain, wall), density);
+                           PlaneStiffness::isotropic(PlaneAssumption::strain, elastic), density);
   ParticleStore particles({}, law->state_columns(), {"initial_volume"});
   Body<2> body{"block", 0, density, std::move(law), std::move(particles)};
   ColumnGroup& state = body.particles.state();
@@ -63,6 +64,42 @@ TEST_P(PresentWaveSpeed, IsTheLawsOwnWithoutStressAndInTension)
   const double own = std::sqrt(p_modulus / density);
   EXPECT_NEAR(speed(GetParam(), {matrix(1, 0, 0, 1)}), own, 1e-12 * own);
   EXPECT_NEAR(speed(GetParam(), {matrix(1.3, 0, 0, 1.2)}), own, 1e-12 * own);
+}
+
+/// One that shears what is drawn to `stretch`, along it: the slope of the nominal shear stress by
+/// the gradient of its motion, by central differences.
+double transverse_speed(const IsotropicConstants& elastic, double stretch)
+{
+  const auto shear_stress = [&](double gradient) {
+    Eigen::Matrix2d f;
+    f << stretch, 0, gradient, 1;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> squared(f * f.transpose());
+    const Eigen::Matrix2d strain =
+        squared.eigenvectors() * (0.5 * squared.eigenvalues().array().log()).matrix().asDiagonal() *
+        squared.eigenvectors().transpose();
+    const double mu = elastic.shear_modulus(), lambda = elastic.wave_modulus() - 2 * mu;
+    const Eigen::Matrix2d tau =
+        2 * mu * strain + lambda * strain.trace() * Eigen::Matrix2d::Identity();
+    return (tau * f.inverse().transpose())(1, 0);
+  };
+  constexpr double h = 1e-6;
+  const double slope = (shear_stress(h) - shear_stress(-h)) / (2 * h);
+  return stretch * std::sqrt(slope / density);
+}
+
+TEST_P(PresentWaveSpeed, IsNotBelowThatOfATransverseWaveAlongWhatIsDrawn)
+{
+  const IsotropicConstants cork{1e9, 0};
+  const double own = std::sqrt(cork.wave_modulus() / density);
+  bool matters = false;
+  for (const double stretch : {1.5, 2.0, 3.0, 4.0}) {
+    const double transverse = transverse_speed(cork, stretch);
+    matters = matters || transverse > 1.2 * own;
+    const double found =
+        present_deformation(body_of(GetParam(), {matrix(stretch, 0, 0, 1)}, cork)).wave_speed;
+    EXPECT_NEAR(found, std::max(own, transverse), 1e-3 * own) << stretch;
+  }
+  EXPECT_TRUE(matters);
 }
 
 TEST_P(PresentWaveSpeed, FollowsTheTangentOfConfinedCompression)

@@ -62,6 +62,21 @@ double area(const CornerOffsets<2>& offsets, const FittedLattice& lattice)
   return sum;
 }
 
+TEST(FittedCorners, ThatStayDoSoAtBothEndsOfAPeriod)
+{
+  const IndexVec<2> count(20, 12);
+  const Inclined wall(0, 4.3, 6.8);
+  FittedLattice lattice = lattice_of(wall, count, true);
+  lattice.stays = [](const IndexVec<2>& at) { return at[0] == 0 && at[1] == 4; };
+  const CornerOffsets<2> fitted = fitted_corners(whole(count), lattice, wall);
+  EXPECT_EQ(fitted({0, 4}), (Vec<2>::Zero()));
+  EXPECT_NE(fitted({3, 4}), (Vec<2>::Zero()));
+  for (int j = 0; j <= count[1]; ++j) {
+    EXPECT_EQ(fitted({0, j}), fitted({count[0], j})) << j;
+    EXPECT_EQ(fitted.way({0, j}), fitted.way({count[0], j})) << j;
+  }
+}
+
 TEST(FittedCorners, StayWhereFacesLieOnTheLattice)
 {
   const IndexVec<2> count(20, 12);
