@@ -4,6 +4,8 @@
 #include <mpm/output/snapshot.hpp>
 #include <mpm/parallel/session.hpp>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -66,16 +68,27 @@ SnapshotSeries::SnapshotSeries(MPI_Comm comm, std::filesystem::path directory, s
                                Options options)
     : comm_(comm), directory_(std::move(directory)), name_(std::move(name)), options_(options)
 {
-  on_rank_zero(comm_, [this] {
-    make_directory(directory_ / "snapshots");
-    take_down(directory_, name_);
-  });
 }
 
-void SnapshotSeries::take_down(const std::filesystem::path& directory, const std::string& name)
+void SnapshotSeries::begin()
 {
+  on_rank_zero(comm_, [this] { write_list(); });
+}
+
+/// On one rank. Files may have been moved or taken away meanwhile, of which other ranks know
+/// nothing: what they share is all that has been written.
+void SnapshotSeries::write_list() const
+{
+  std::vector<XdmfGrid> there;
+  std::ranges::copy_if(entries_, std::back_inserter(there), [this](const XdmfGrid& entry) {
+    return std::filesystem::exists(directory_ / entry.file);
+  });
+  const std::filesystem::path list = directory_ / (name_ + ".xdmf");
   std::error_code ignored;  // usually there is none
-  std::filesystem::remove(directory / (name + ".xdmf"), ignored);
+  if (there.empty())
+    std::filesystem::remove(list, ignored);
+  else
+    write_xdmf(list, name_, there);
 }
 
 void SnapshotSeries::write(const Snapshot& snapshot)
@@ -93,6 +106,7 @@ void SnapshotSeries::write(const Snapshot& snapshot)
   if (entry.particles > std::numeric_limits<std::int32_t>::max())
     entry.connectivity = NumberType::int64;
 
+  on_rank_zero(comm_, [this] { make_directory(directory_ / "snapshots"); });
   Hdf5File file(comm_, directory_ / entry.file,
                 options_.compress ? Compression::gzip : Compression::none,
                 expected_bytes(snapshot, entry.particles));
@@ -123,7 +137,7 @@ void SnapshotSeries::write(const Snapshot& snapshot)
   ++written_;
   if (entry.particles == 0) return;  // ParaView divides by the number of rows and ends
   entries_.push_back(std::move(entry));
-  on_rank_zero(comm_, [this] { write_xdmf(directory_ / (name_ + ".xdmf"), name_, entries_); });
+  on_rank_zero(comm_, [this] { write_list(); });
 }
 
 void SnapshotSeries::archive(Archive& archive)
@@ -137,13 +151,6 @@ void SnapshotSeries::archive(Archive& archive)
     const Archive::Section of_entry(archive, fmt::format("{:06}", k));
     archive_grid(archive, entries_[std::size_t(k)]);
   }
-  if (!archive.is_loading()) return;
-  on_rank_zero(comm_, [this] {
-    std::erase_if(entries_, [&](const XdmfGrid& entry) {
-      return !std::filesystem::exists(directory_ / entry.file);
-    });
-    if (!entries_.empty()) write_xdmf(directory_ / (name_ + ".xdmf"), name_, entries_);
-  });
 }
 
 void SnapshotSeries::cut(int written)
@@ -151,12 +158,8 @@ void SnapshotSeries::cut(int written)
   const std::string first_gone = file_of(written);
   std::erase_if(entries_, [&](const XdmfGrid& entry) { return entry.file >= first_gone; });
   on_rank_zero(comm_, [&] {
-    const std::filesystem::path series = directory_ / (name_ + ".xdmf");
+    write_list();  // before the files: it never names one that is gone
     std::error_code ignored;
-    if (entries_.empty())
-      std::filesystem::remove(series, ignored);
-    else
-      write_xdmf(series, name_, entries_);  // before the files: it never names one that is gone
     for (int k = written; k < written_; ++k)
       std::filesystem::remove(directory_ / file_of(k), ignored);
   });

@@ -1,6 +1,7 @@
 #include <mpm/scene/scene_changes.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "yaml_tree.hpp"
@@ -26,7 +27,9 @@ bool may_change(const std::string& path)
   static const std::vector<std::string> free{"loading.strain", "free_motion.end_time", "steps",
                                              "numerics.cfl",   "numerics.recovery",    "name",
                                              "title"};
-  return path.starts_with("output.") || std::ranges::find(free, path) != free.end();
+  // Borders are those of the checkpoint, or made anew on other ranks.
+  return path.starts_with("output.") || path.starts_with("numerics.ranks") ||
+         std::ranges::find(free, path) != free.end();
 }
 
 }  // namespace
@@ -41,11 +44,15 @@ std::vector<std::string> changes_that_matter(const std::string& before, const st
     const auto found = values.find(path);
     return found == values.end() ? "not given" : found->second;
   };
+  // The folder of a project may be another one now; its bytes are compared beside.
+  const auto counts = [](const std::string& path, const std::string& value) {
+    return path == "specimen.micrograph" ? std::filesystem::path(value).filename().string() : value;
+  };
   Values all = old_values;
   all.insert(new_values.begin(), new_values.end());
   for (const auto& [path, value] : all) {
     const std::string was = shown(old_values, path), is = shown(new_values, path);
-    if (was != is && !may_change(path))
+    if (counts(path, was) != counts(path, is) && !may_change(path))
       changes.push_back(fmt::format("{} was {} and is {}", path, was, is));
   }
   return changes;

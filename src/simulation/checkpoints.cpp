@@ -14,16 +14,36 @@
 
 namespace mpm {
 
+namespace {
+
+std::string name_of(GlobalIndex step)
+{
+  return fmt::format("{:012}.h5", step);
+}
+
+/// Whether a run gives this name to its checkpoints. What else stands there is the user's.
+bool is_of_a_step(const std::filesystem::path& file)
+{
+  const std::string stem = file.stem().string();
+  return file.extension() == ".h5" && stem.size() == 12 &&
+         std::ranges::all_of(stem, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
 void CheckpointFolder::write(MPI_Comm comm, GlobalIndex step, const MemoryArchive& state,
                              int keep) const
 {
   on_rank_zero(comm, [&] { output::make_directory(folder_); });
-  output::write_state(comm, folder_ / fmt::format("{:012}.h5", step), state);
+  const std::filesystem::path written = folder_ / name_of(step);
+  output::write_state(comm, written, state);
   on_rank_zero(comm, [&] {
-    const std::vector<std::filesystem::path> all = files();
-    std::error_code ignored;  // one that stays harms nobody
-    for (std::size_t k = std::size_t(keep); k < all.size(); ++k)
-      std::filesystem::remove(all[k], ignored);
+    int kept = 0;
+    for (const std::filesystem::path& file : files()) {
+      if (file <= written && ++kept <= keep) continue;
+      std::error_code ignored;  // one that stays harms nobody
+      std::filesystem::remove(file, ignored);
+    }
   });
 }
 
@@ -32,7 +52,7 @@ std::vector<std::filesystem::path> CheckpointFolder::files() const
   std::vector<std::filesystem::path> found;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder_, none))
-    if (entry.path().extension() == ".h5") found.push_back(entry.path());
+    if (is_of_a_step(entry.path())) found.push_back(entry.path());
   std::ranges::sort(found, std::greater());
   return found;
 }
@@ -77,9 +97,14 @@ LoadedState load_state(MPI_Comm comm, const CheckpointFolder& folder,
 
 void CheckpointSchedule::start(GlobalIndex steps, double strain, double seconds)
 {
+  go_back(steps, strain);
+  seconds_ = seconds;
+}
+
+void CheckpointSchedule::go_back(GlobalIndex steps, double strain)
+{
   steps_ = steps;
   strain_ = strain;
-  seconds_ = seconds;
 }
 
 /// Multiples of what was asked for, so that a run that went on writes them where it would have.

@@ -37,6 +37,7 @@ std::string FailureSnapshot<Dim>::failed(const typename Observer<Dim>::State& la
   try {
     output::SnapshotSeries series(preparation_.comm, folder_, scene.name,
                                   {.compress = scene.output.compress});
+    series.begin();
     series.write(snapshot_of(preparation_, last_sound.formulation, last_sound.strain));
   } catch (const FileError& error) {
     return fmt::format(" The last sound state ({}) could not be written: {}", when, error.what());

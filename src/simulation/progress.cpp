@@ -34,7 +34,7 @@ bool output_is_terminal()
          (target.string().starts_with("/dev/pts/") || target.string().starts_with("/dev/tty"));
 }
 
-Progress::Progress() : start_(Clock::now()), last_(start_), terminal_(output_is_terminal()) {}
+Progress::Progress() : terminal_(output_is_terminal()) {}
 
 std::string Progress::line(const ProgressState& state, double seconds) const
 {
@@ -45,9 +45,11 @@ std::string Progress::line(const ProgressState& state, double seconds) const
   else
     text += fmt::format("  t {:.4g} s", state.time);
   if (seconds > 0) {
-    text += fmt::format("  {:.1f} M particles/s", 1e-6 * double(state.particle_steps) / seconds);
-    if (state.fraction > 0.01 && state.fraction < 1)
-      text += "  " + duration(seconds * (1 - state.fraction) / state.fraction) + " left";
+    const double done = state.fraction - first_->fraction;
+    text += fmt::format("  {:.1f} M particles/s",
+                        1e-6 * double(state.particle_steps - first_->particle_steps) / seconds);
+    if (done > 0.01 && state.fraction < 1)
+      text += "  " + duration(seconds * (1 - state.fraction) / done) + " left";
   }
   return text;
 }
@@ -55,6 +57,10 @@ std::string Progress::line(const ProgressState& state, double seconds) const
 void Progress::show(const ProgressState& state)
 {
   const auto now = Clock::now();
+  if (!first_) {
+    first_ = state;
+    start_ = last_ = now;
+  }
   const double seconds = std::chrono::duration<double>(now - start_).count();
   if (terminal_) {
     if (std::chrono::duration<double>(now - last_).count() < seconds_between_updates &&

@@ -254,6 +254,7 @@ class Run {
     kept_.load(*stepper_, balance_, history_);
     if (!retries() || int(result_.goings_back.size()) >= most_attempts) stop(error);
     step_share_ *= share_of_step;
+    schedule_.go_back(stepper_->steps(), state().strain);
     result_.repeated_steps += failed_step - stepper_->steps();
     result_.goings_back.push_back({failed_step, failed_time, error.what(), stepper_->steps(),
                                    stepper_->time(), history_.lines().size(), step_share_});

@@ -16,6 +16,7 @@
 #include <mpm/simulation/run_summary.hpp>
 #include <mpm/simulation/snapshots.hpp>
 
+#include <array>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -82,8 +83,6 @@ class FolderWriter final : public Observer<Dim> {
       if (request_.restart) results_.go_on();
       output::replace_file(folder / "scene.yaml", effective_scene_);
       micrograph::write_preview(preparation_.specimen, folder / "specimen.png");
-      if (!asks_for_snapshots(preparation_.scene))
-        output::SnapshotSeries::take_down(folder, preparation_.scene.name);
     });
   }
 
@@ -217,10 +216,9 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const RunRequest& r
   ProgressWriter<Dim> progress(comm, request.quiet);
   FailureSnapshot<Dim> failure(preparation, folder);
   ExactSolution<Dim> exact(preparation, folder);
-  std::vector<Observer<Dim>*> observers{&writer, &history, &progress, &failure, &exact};
-  std::optional<Snapshots<Dim>> snapshots;
-  if (asks_for_snapshots(preparation.scene))
-    observers.push_back(&snapshots.emplace(preparation, folder));
+  Snapshots<Dim> snapshots(preparation, folder);
+  const std::array<Observer<Dim>*, 6> observers{&writer,  &history, &progress,
+                                                &failure, &exact,   &snapshots};
   watch_for_interruptions();
   const RunResult result = run<Dim>(preparation, observers, std::move(continuation));
   on_rank_zero(comm, [&] {

@@ -169,19 +169,12 @@ output::Snapshot snapshot_of(const Preparation<Dim>& preparation, Formulation<Di
 }
 
 template <int Dim>
-Snapshots<Dim>::Snapshots(const Preparation<Dim>& preparation, std::filesystem::path folder)
-    : preparation_(preparation), folder_(std::move(folder)), moments_(snapshot_moments(preparation))
+Snapshots<Dim>::Snapshots(const Preparation<Dim>& preparation, const std::filesystem::path& folder)
+    : preparation_(preparation),
+      series_(preparation.comm, folder, preparation.scene.name,
+              {.compress = preparation.scene.output.compress}),
+      moments_(snapshot_moments(preparation))
 {
-}
-
-template <int Dim>
-output::SnapshotSeries& Snapshots<Dim>::series()
-{
-  if (!series_)
-    series_.emplace(
-        preparation_.comm, folder_, preparation_.scene.name,
-        output::SnapshotSeries::Options{.compress = preparation_.scene.output.compress});
-  return *series_;
 }
 
 template <int Dim>
@@ -191,7 +184,7 @@ void Snapshots<Dim>::look(const typename Observer<Dim>::State& state)
   looked_ = formulation.time();
   if (!pass_moments()) return;
   formulation.check();
-  series().write(snapshot_of(preparation_, formulation, state.strain));
+  series_.write(snapshot_of(preparation_, formulation, state.strain));
 }
 
 /// Whether any has come.
@@ -207,21 +200,21 @@ template <int Dim>
 void Snapshots<Dim>::kept()
 {
   next_when_kept_ = next_;
-  written_when_kept_ = series().written();
+  written_when_kept_ = series_.written();
 }
 
 template <int Dim>
 void Snapshots<Dim>::went_back(const GoingBack&)
 {
   next_ = next_when_kept_;
-  series().cut(written_when_kept_);
+  series_.cut(written_when_kept_);
 }
 
 template <int Dim>
 void Snapshots<Dim>::archive(Archive& archive)
 {
   archive.value("looked", looked_);
-  series().archive(archive);
+  series_.archive(archive);
   if (!archive.is_loading()) return;
   next_ = 0;
   pass_moments();

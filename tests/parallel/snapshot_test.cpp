@@ -1,4 +1,5 @@
 #include <mpm/core/error.hpp>
+#include <mpm/core/memory_archive.hpp>
 #include <mpm/output/snapshot.hpp>
 
 #include <csignal>
@@ -225,7 +226,10 @@ TEST(SnapshotSeries, XdmfNamesFinishedSnapshotsOnlyByRelativePath)
   }
   MPI_Barrier(MPI_COMM_WORLD);
   // A second run into the same directory must not leave the first one's list in place.
-  const SnapshotSeries second(MPI_COMM_WORLD, directory, "particles", {});
+  SnapshotSeries second(MPI_COMM_WORLD, directory, "particles", {});
+  EXPECT_TRUE(std::filesystem::exists(directory / "particles.xdmf"));
+  MPI_Barrier(MPI_COMM_WORLD);
+  second.begin();
   EXPECT_FALSE(std::filesystem::exists(directory / "particles.xdmf"));
 }
 
@@ -234,23 +238,52 @@ TEST(SnapshotSeries, DirectoryThatCannotBeMadeIsAnErrorOnEveryRank)
   const auto directory = fresh_directory("blocked");
   if (rank() == 0) std::ofstream(directory / "file") << "in the way";
   MPI_Barrier(MPI_COMM_WORLD);
-  const std::string message = message_on_every_rank(
-      [&] { SnapshotSeries(MPI_COMM_WORLD, directory / "file", "particles", {}); });
+  SnapshotSeries series(MPI_COMM_WORLD, directory / "file", "particles", {});
+  const std::string message = message_on_every_rank([&] { series.write(numbered(10, 0)); });
   EXPECT_THAT(message, HasSubstr("cannot create the directory (Not a directory)"));
 }
 
-TEST(SnapshotSeries, DirectoryThatVanishesIsAnErrorOnEveryRankAndTheNextWriteMayWork)
+TEST(SnapshotSeries, FileThatCannotBeOpenedIsAnErrorOnEveryRankAndTheNextWriteMayWork)
 {
-  const auto directory = fresh_directory("vanished");
+  const auto directory = fresh_directory("in_the_way");
   SnapshotSeries series(MPI_COMM_WORLD, directory, "particles", {});
-  if (rank() == 0) std::filesystem::remove_all(directory / "snapshots");
+  const auto in_the_way = directory / "snapshots" / "000000.h5.part";
+  if (rank() == 0) std::filesystem::create_directories(in_the_way / "folder");
   MPI_Barrier(MPI_COMM_WORLD);
   const std::string message = message_on_every_rank([&] { series.write(numbered(10, 0)); });
-  EXPECT_THAT(message,
-              HasSubstr("000000.h5.part: cannot open the file (No such file or directory)"));
-  if (rank() == 0) std::filesystem::create_directories(directory / "snapshots");
+  EXPECT_THAT(message, HasSubstr("000000.h5.part: cannot open the file (Is a directory)"));
+  if (rank() == 0) std::filesystem::remove_all(in_the_way);
   MPI_Barrier(MPI_COMM_WORLD);
   EXPECT_EQ(message_on_every_rank([&] { series.write(numbered(10, 0)); }), "nothing was thrown");
+}
+
+/// So that the ranks go on with the same state, whoever sees which files are there.
+TEST(SnapshotSeries, ThatGoesOnNamesWhatIsStillThereAndKeepsAllInItsState)
+{
+  const auto directory = fresh_directory("taken_away");
+  SnapshotSeries first(MPI_COMM_WORLD, directory, "particles", {});
+  for (const double time : {1e-6, 2e-6, 3e-6}) first.write(numbered(10, time));
+  MemoryArchive before, after;
+  before.start_saving();
+  first.archive(before);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank() == 0) std::filesystem::remove(directory / "snapshots" / "000001.h5");
+  const std::string list = text_of(directory / "particles.xdmf");
+  MPI_Barrier(MPI_COMM_WORLD);
+
+  SnapshotSeries second(MPI_COMM_WORLD, directory, "particles", {});
+  before.start_loading();
+  second.archive(before);
+  after.start_saving();
+  second.archive(after);
+  EXPECT_TRUE(differences(before, after).empty());
+  EXPECT_EQ(text_of(directory / "particles.xdmf"), list);
+  MPI_Barrier(MPI_COMM_WORLD);
+  second.begin();
+  second.write(numbered(10, 4e-6));
+  const std::string names = text_of(directory / "particles.xdmf");
+  for (const int k : {0, 1, 2, 3})
+    EXPECT_EQ(names.find("00000" + std::to_string(k) + ".h5") != std::string::npos, k != 1) << k;
 }
 
 TEST(SnapshotSeries, FullDiskIsAnErrorOnEveryRankAndHarmsNothingWrittenBefore)

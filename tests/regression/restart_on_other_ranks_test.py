@@ -63,6 +63,15 @@ class RestartOnOtherRanks(RunsToRestart):
     def test_cells(self):
         self.check_goes_on(RING, 1001, [CELLS, "output.snapshots=0"])
 
+    def test_cells_of_ranks_that_were_arranged(self):
+        folder, settings = self.folder / "arranged", [CELLS, "output.snapshots=0"]
+        self.run_it(RING, folder, ranks=2, settings=[*settings, "steps=301", "numerics.ranks=[1, 2]",
+                                                     "output.checkpoints={steps: 20, keep: 1}"])
+        run = self.run_it(RING, folder, "--restart", ranks=1, settings=[*settings, "numerics.ranks=[1, 2]"],
+                          status=2)
+        self.assertIn("1 ranks cannot be arranged as 1 x 2", run.stderr)
+        self.run_it(RING, folder, "--restart", ranks=1, settings=[*settings, "steps=400"])
+
     def test_cells_that_touch(self):
         self.check_goes_on(CROP, 2001, ["loading.strain=25 %"], tolerance=1e-6)
 

@@ -1,6 +1,9 @@
 """A run that ended before its end, by a signal, the clock, a kill or a limit of steps, goes on from its
 last checkpoint with the same bits: history, snapshots and what the summary says of them."""
+import fcntl
 import pathlib
+import re
+import shutil
 import signal
 import time
 import unittest
@@ -161,6 +164,51 @@ class Restart(RunsToRestart):
             self.assertIn(str(file), run.stdout + run.stderr)
         self.assertIn(f"goes on from {first}", run.stdout)
         expect_same(self, whole, folder)
+
+    def test_what_is_done_from_an_older_one_takes_the_place_of_what_was_done_before(self):
+        folder = self.begun()
+        first = self.checkpoints(folder)[0]
+        self.run_it(RING, folder, "--restart", first,
+                    settings=[CELLS, "steps=700", "output.checkpoints={steps: 300, keep: 2}"])
+        (folder / "checkpoints" / "my_copy.h5").write_bytes(first.read_bytes())
+        self.assertEqual([path.name for path in self.checkpoints(folder)],
+                         ["000000000400.h5", "000000000600.h5", "my_copy.h5"])
+        run = self.run_it(RING, folder, "--restart", settings=[CELLS])
+        self.assertIn("goes on from " + str(folder / "checkpoints" / "000000000600.h5"), run.stdout)
+        expect_same(self, self.whole(RING, 1, [CELLS]), folder)
+
+    def snapshots_named(self, folder):
+        return sorted(set(re.findall(r"snapshots/(\d+)\.h5", (folder / "crushed_ring.xdmf").read_text())))
+
+    def test_goes_on_with_other_snapshots_or_none(self):
+        folder = self.begun(["output.snapshots=0"])
+        first = self.checkpoints(folder)[0]  # before 10 % strain
+        self.run_it(RING, folder, "--restart", first, settings=[CELLS])
+        self.assertEqual(self.snapshots_named(folder), ["000000", "000001", "000002"])
+        shutil.rmtree(folder)
+        folder = self.begun()
+        self.run_it(RING, folder, "--restart", first, settings=[CELLS, "output.snapshots=0"])
+        self.assertEqual(self.snapshots_named(folder), ["000000"])
+
+    def test_goes_on_without_snapshots_that_were_taken_away(self):
+        folder, settings = self.folder / "taken", [CELLS, "output.checkpoints={steps: 400}"]
+        self.run_it(RING, folder, settings=[*settings, "steps=1500"], ranks=2)
+        (folder / "snapshots" / "000000.h5").unlink()
+        self.run_it(RING, folder, "--restart", settings=[*settings, "steps=2500"], ranks=2)
+        self.run_it(RING, folder, "--restart", settings=settings, ranks=2)
+        self.assertEqual(self.snapshots_named(folder), ["000001", "000002", "000003"])
+
+    def test_changes_nothing_while_a_run_is_writing_there(self):
+        folder = self.folder / "taken"
+        self.run_it(RING, folder, settings=[CELLS, "output.checkpoints={steps: 1400, keep: 9}"])
+        self.assertEqual(len(self.snapshots_named(folder)), 4)
+        with open(folder / "in_use.lock", "a") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            before = all_of(folder)
+            run = self.run_it(RING, folder, "--restart", self.checkpoints(folder)[0], settings=[CELLS],
+                              status=2)
+            self.assertIn("a run is writing there", run.stderr)
+            self.assertEqual(all_of(folder), before)
 
     def test_says_why_it_cannot_go_on(self):
         folder = self.begun()

@@ -39,30 +39,31 @@ class SnapshotSeries {
   struct Options {
     bool compress = false;
   };
-  /// Writes DIR/snapshots/000000.h5, ... and DIR/<name>.xdmf. Collective. A series of that name
-  /// from an earlier run is taken down, since its files are about to be replaced.
-  /// Throws FileError on every rank if the directory cannot be made.
+  /// Writes DIR/snapshots/000000.h5, ... and DIR/<name>.xdmf; made, it touches nothing yet.
   SnapshotSeries(MPI_Comm comm, std::filesystem::path directory, std::string name, Options options);
 
+  /// A series of that name from an earlier run is taken down, since its files are about to be
+  /// replaced; one that goes on names what is still there of it. Collective. Throws FileError on
+  /// every rank if its list cannot be written.
+  void begin();
   /// Collective. Throws FileError on every rank if any rank could not write.
   void write(const Snapshot& snapshot);
 
   int written() const { return written_; }
-  /// The series of that name from an earlier run: nothing names its snapshots any more. On one
-  /// rank.
-  static void take_down(const std::filesystem::path& directory, const std::string& name);
   /// Takes down all but the first ones. Collective.
   void cut(int written);
-  /// What has been written; a series that goes on names what is still there of it. Collective.
+  /// What has been written.
   void archive(Archive& archive);
 
  private:
+  void write_list() const;
+
   MPI_Comm comm_;
   std::filesystem::path directory_;
   std::string name_;
   Options options_;
   int written_ = 0;
-  std::vector<XdmfGrid> entries_;  ///< of the snapshots with any particle
+  std::vector<XdmfGrid> entries_;  ///< of the snapshots with any particle, there or not
 };
 
 }  // namespace mpm::output

@@ -23,7 +23,8 @@ class CheckpointFolder {
   explicit CheckpointFolder(const std::filesystem::path& results) : folder_(results / "checkpoints")
   {
   }
-  /// Then takes away all but the last `keep` ones. Collective.
+  /// Then takes away all but the last `keep` ones, and those of later steps: the run has gone back
+  /// behind them, and what it does from there on is what counts. Collective.
   void write(MPI_Comm comm, GlobalIndex step, const MemoryArchive& state, int keep) const;
   std::vector<std::filesystem::path> files() const;  ///< the newest first
   void clear() const;                                ///< on one rank
@@ -51,6 +52,8 @@ class CheckpointSchedule {
 
   /// They count from here.
   void start(GlobalIndex steps, double strain, double seconds);
+  /// The run is here again; the clock has not gone back.
+  void go_back(GlobalIndex steps, double strain);
   bool by_clock() const { return asked_ && asked_->wall_time; }
   bool is_due_by_clock(double seconds) const
   {

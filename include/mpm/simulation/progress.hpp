@@ -2,6 +2,7 @@
 /// How far a run is, for people: one line that is rewritten on a terminal, plain lines elsewhere.
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace mpm {
@@ -28,7 +29,8 @@ class Progress {
   std::string line(const ProgressState& state, double seconds) const;
 
   using Clock = std::chrono::steady_clock;
-  Clock::time_point start_, last_;
+  std::optional<ProgressState> first_;  ///< a run that goes on has come this far before
+  Clock::time_point start_, last_;      ///< when that was shown, and the last one
   bool terminal_;
   double next_fraction_ = 0;
   bool open_line_ = false;

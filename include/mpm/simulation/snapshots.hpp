@@ -5,7 +5,6 @@
 #include <mpm/simulation/run.hpp>
 
 #include <filesystem>
-#include <optional>
 
 namespace mpm {
 
@@ -23,11 +22,12 @@ inline bool asks_for_snapshots(const scene::Scene& scene)
   return !scene.output.snapshot_strains.empty() || !scene.output.snapshot_times.empty();
 }
 
-/// Of a scene that asks for any.
+/// Of every run, so that one may go on with other moments, or with none.
 template <int Dim>
 class Snapshots final : public Observer<Dim> {
  public:
-  Snapshots(const Preparation<Dim>& preparation, std::filesystem::path folder);
+  Snapshots(const Preparation<Dim>& preparation, const std::filesystem::path& folder);
+  void start(const HistoryKind&) override { series_.begin(); }
   void look(const typename Observer<Dim>::State& state) override;
   void kept() override;
   void went_back(const GoingBack& back) override;
@@ -35,13 +35,9 @@ class Snapshots final : public Observer<Dim> {
 
  private:
   bool pass_moments();
-  /// From the first use on: it takes down what an earlier run has left, and a state to go on from
-  /// may still be refused. Collective.
-  output::SnapshotSeries& series();
 
   const Preparation<Dim>& preparation_;
-  std::filesystem::path folder_;
-  std::optional<output::SnapshotSeries> series_;
+  output::SnapshotSeries series_;
   std::vector<double> moments_;  ///< s, ascending
   double looked_ = -1;           ///< s, when last
   std::size_t next_ = 0;

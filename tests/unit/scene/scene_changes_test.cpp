@@ -50,5 +50,13 @@ TEST(SceneChanges, TheEndTheOutputAndTheTimeStepMayChange)
       IsEmpty());
 }
 
+TEST(SceneChanges, HowRanksAreArrangedAndWhereTheMicrographLiesMayChange)
+{
+  const std::string there = "specimen: {micrograph: /there/wood.bmp}\nnumerics: {ranks: [4, 2]}\n";
+  EXPECT_THAT(changes_that_matter(there, "specimen: {micrograph: /here/wood.bmp}\n"), IsEmpty());
+  EXPECT_THAT(changes_that_matter(there, "specimen: {micrograph: /there/poplar.bmp}\n"),
+              ElementsAre("specimen.micrograph was /there/wood.bmp and is /there/poplar.bmp"));
+}
+
 }  // namespace
 }  // namespace mpm::scene
