@@ -18,17 +18,22 @@ find_mpm_par() {
 # The step of the newest checkpoint; nothing if there is none.
 newest_checkpoint() {
   if [ -d "$1/checkpoints" ]; then
-    find "$1/checkpoints" -name '*.h5' -printf '%f\n' | sort | tail -n 1 | sed 's/\.h5$//'
+    find "$1/checkpoints" -regextype posix-extended -regex '.*/[0-9]{12}\.h5' -printf '%f\n' | sort |
+      tail -n 1 | sed 's/\.h5$//'
   fi
 }
 
-# The same `arguments` for a job that comes back: from the checkpoint, or anew if a node failed before
-# there was one.
+# The same `arguments` for a job that comes back: from its newest checkpoint, whichever it began with,
+# or anew if a node failed before there was one.
 go_on_with() {
   arguments=()
-  local argument
+  local argument before=
   for argument; do
-    case $argument in --overwrite | --restart) ;; *) arguments+=("$argument") ;; esac
+    case $before$argument in
+      --overwrite | --restart | --restart*.h5) ;;
+      *) arguments+=("$argument") ;;
+    esac
+    if [ "$argument" = --restart ]; then before=$argument; else before=; fi
   done
   if [ -n "$(progress)" ]; then arguments+=(--restart); else arguments+=(--overwrite); fi
 }

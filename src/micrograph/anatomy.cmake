@@ -5,7 +5,7 @@ add_library(mpm_anatomy STATIC
   ${anatomy_folder}/anatomy_cells.cpp ${anatomy_folder}/anatomy_drawing.cpp
   ${anatomy_folder}/anatomy_file.cpp ${anatomy_folder}/anatomy_keys.cpp
   ${anatomy_folder}/anatomy_parameters.cpp
-  ${anatomy_folder}/anatomy_tissue.cpp)
+  ${anatomy_folder}/anatomy_tissue.cpp ${anatomy_folder}/picture_file.cpp)
 target_include_directories(mpm_anatomy PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
 target_include_directories(mpm_anatomy SYSTEM PRIVATE ${STB_INCLUDE_DIR})
 target_compile_options(mpm_anatomy PRIVATE -Wall -Wextra -ffp-contract=off -fno-fast-math)

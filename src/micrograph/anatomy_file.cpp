@@ -1,17 +1,7 @@
-// The writer is kept static: another library of the program may bring its own copy.
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#include <stb_image_write.h>
-#pragma GCC diagnostic pop
-
-#include <mpm/core/error.hpp>
 #include <mpm/micrograph/anatomy_drawing.hpp>
+#include <mpm/micrograph/picture_file.hpp>
 
 #include <cmath>
-#include <fstream>
 
 namespace mpm::micrograph::anatomy {
 
@@ -59,20 +49,12 @@ std::vector<std::uint8_t> bmp_bytes(const Drawing& drawing, const Picture& pictu
 
 void write_bmp(const Drawing& drawing, const Picture& picture, const std::filesystem::path& file)
 {
-  const std::vector<std::uint8_t> bytes = bmp_bytes(drawing, picture);
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes.data()),
-            static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out)
-    throw FileError(file.string() + ": cannot write (does the folder exist, is it writable?)");
+  write_bytes(bmp_bytes(drawing, picture), file);
 }
 
 void write_png(const Drawing& drawing, const std::filesystem::path& file)
 {
-  if (!stbi_write_png(file.c_str(), drawing.width, drawing.height, 1, drawing.gray.data(),
-                      drawing.width))
-    throw FileError(file.string() + ": cannot write (does the folder exist, is it writable?)");
+  micrograph::write_png(drawing.width, drawing.height, drawing.gray, file);
 }
 
 }  // namespace mpm::micrograph::anatomy

@@ -1,16 +1,7 @@
-#include <mpm/core/error.hpp>
+#include <mpm/micrograph/picture_file.hpp>
 #include <mpm/micrograph/preview.hpp>
 
 #include <algorithm>
-
-// Static: another part of the program may hold its own copy of this single-file library.
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
-#include <stb_image_write.h>
-#pragma GCC diagnostic pop
 
 namespace mpm::micrograph {
 
@@ -42,10 +33,7 @@ void write_preview(const Specimen<Dim>& specimen, const std::filesystem::path& f
                            : std::uint8_t(white - (white - darkest) * material / last));
     }
   }
-  if (!stbi_write_png(file.c_str(), width, height, 1, pixels.data(), width))
-    throw FileError(file.string() +
-                    ": the preview cannot be written. Check that the directory "
-                    "exists, is writable and has space left.");
+  write_png(width, height, pixels, file);
 }
 
 template void write_preview<2>(const Specimen<2>&, const std::filesystem::path&, int);

@@ -54,9 +54,11 @@ class Study:
         """(key, value) pairs as --set takes them. What a run sets overrides what all share; no
         snapshots are written unless the study asks for them."""
         settings = {key: node.text for key, node in self.shared.items()}
-        if not any(key.startswith("output.snapshots") for key in {**settings, **self.nodes}):
-            settings["output.snapshots"] = "0"
         settings.update(combination.settings)
+        if not any(key.startswith("output.snapshots") or
+                   key == "output" and node.is_map and "snapshots" in node.value
+                   for key, node in {**self.shared, **self.nodes}.items()):
+            settings["output.snapshots"] = "0"  # behind an `output` that replaces all of it
         return list(settings.items())
 
     def known_of(self, combination):

@@ -76,6 +76,7 @@ class PbsTest(unittest.TestCase):
         self.assertEqual(asked["script"], str(ROOT / "jobscripts" / script))
         results = self.folder / "results" / "ring-12"
         [checkpoint] = (results / "checkpoints").glob("*.h5")
+        (results / "checkpoints" / "my_copy.h5").touch()
         # An end that may change, so that the second job reaches it.
         self.scene.write_text(RING + f"steps: {int(checkpoint.stem) + 200}\n")
         said = self.run_it(script, 13, status=0, **{**asked["environment"], "TIME_LIMIT": "1 h"})
@@ -89,6 +90,27 @@ class PbsTest(unittest.TestCase):
 
     def test_on_many_nodes_too(self):
         self.goes_on("many_nodes.pbs")
+
+    def test_it_submits_the_script_and_the_launcher_that_it_was_submitted_with(self):
+        copy = self.folder / "my_cluster.pbs"
+        shutil.copyfile(ROOT / "jobscripts" / "one_node.pbs", copy)
+        self.run_it(copy, 12, status=0, MPM_LAUNCH="env")
+        asked = self.asked()
+        self.assertEqual(asked["script"], str(copy))
+        self.assertEqual(asked["environment"]["MPM_LAUNCH"], "env")
+        self.run_it("one_node.pbs", 13, status=0, JOBSCRIPT=str(copy))
+        asked = self.asked()
+        self.assertEqual([asked["script"], asked["environment"]["JOBSCRIPT"]], 2 * [str(copy)])
+
+    def test_it_goes_on_from_its_own_checkpoint_whichever_it_began_with(self):
+        self.run_it("one_node.pbs", 12, status=0)
+        begun = self.asked()["environment"]
+        results = self.folder / "results" / "ring-12"
+        [checkpoint] = (results / "checkpoints").glob("*.h5")
+        begun["ARGUMENTS"] = f"--restart {checkpoint.relative_to(self.folder)} --quiet"
+        self.scene.write_text(RING + f"steps: {int(checkpoint.stem) + 200}\n")
+        self.run_it("one_node.pbs", 13, status=0, **{**begun, "TIME_LIMIT": "1 h"})
+        self.assertTrue((results / "summary.json").exists())
 
     def test_without_progress_it_does_not(self):
         stuck = self.program("stuck", "#!/bin/sh\nexit 75\n")

@@ -136,6 +136,22 @@ class Reading(ProgramTest):
         work = sum(w for w, number in zip(last["plastic_work"], last["id"]) if number in left)
         self.assertAlmostEqual(work / inside[-1, 0], 1, delta=1e-9)
 
+    def test_a_name_is_a_text_whatever_it_looks_like(self):
+        from program import mpm_par as start, scene
+        for name in "007", "0.50", "2026-11-03", "on":
+            with self.subTest(name):
+                file = self.folder / f"{name}.yaml"
+                file.write_text(scene("confined_block").read_text().replace("title: ", "# "))
+                folder = self.folder / "results" / name
+                run = start(file, "--output", folder, *set_options(
+                    ["steps=20", "output.snapshots=2", "specimen.windows=[{name: '1', x: [0 %, 50 %]}]"]))
+                self.assertEqual(run.returncode, 0, run.stderr)
+                opened = mpm_par.open_run(folder)
+                self.assertEqual((opened.name, opened.title), (name, name))
+                self.assertGreater(len(opened.snapshots), 0)
+                self.assertEqual([w["name"] for w in opened.scene["specimen"]["windows"]],
+                                 list(opened.summary["windows"]))
+
     def test_cells_in_another_order_are_noticed(self):
         """As after a restart on another number of ranks, where no id tells cells apart."""
         folder = self.crushed("total_lagrangian", fields="[plastic_work]")

@@ -163,6 +163,14 @@ class Report(ProgramTest):
         self.assertIn("It fell ill & <ended>.",
                       self.page_of(folder, "--remark", "It fell ill & <ended>.", *SPARSE).text)
 
+    def test_a_run_that_began_on_more_ranks(self):
+        folder, settings = self.folder / "results", [*SMALL, "output.checkpoints={steps: 100}"]
+        for ranks, words in (3, ["--set", "steps=300"]), (2, ["--restart"]):
+            run = mpm_par(scene("honeycomb"), "--output", folder, *set_options(settings), *words, ranks=ranks)
+            self.assertEqual(run.returncode, 0, run.stderr)
+        said = " ".join(image.get("alt", "") for image in self.page_of(folder, *SPARSE).images)
+        self.assertIn("Particles of 3 ranks; at the end from 0 to", said)
+
     def test_a_run_of_few_steps_says_so(self):
         folder = self.results("honeycomb", "steps=400", *SMALL)
         self.assertIn("This run stopped early: its scene limits the steps",

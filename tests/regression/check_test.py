@@ -135,9 +135,15 @@ class Check(ProgramTest):
     def test_a_preview_that_cannot_be_written_is_said(self):
         run = mpm_par("--check", "--quiet", BLOCK, "--preview", self.folder / "none" / "a.png",
                       ranks=2)
-        self.assertIn("the preview cannot be written", run.stderr)
-        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("the picture cannot be written", run.stderr)
+        self.assertEqual(run.returncode, 4)
         shutil.rmtree(self.folder)
+
+    def test_a_preview_on_a_full_disk_is_said(self):
+        (self.folder / "full.png").symlink_to("/dev/full")
+        run = mpm_par("--check", "--quiet", BLOCK, "--preview", self.folder / "full.png")
+        self.assertEqual(run.returncode, 4, run.stderr)
+        self.assertIn("full.png: the picture cannot be written", run.stderr)
 
 
 if __name__ == "__main__":

@@ -60,6 +60,13 @@ class Runs(StudyFile):
         study = self.read(GOOD.replace("25 %", "25 %, output.snapshots.count: 3"))
         self.assertNotIn("output.snapshots", dict(study.assignments(study.combinations[0])))
 
+    def test_ask_for_snapshots_in_a_map_of_all_output_too(self):
+        asked = self.read(GOOD.replace("25 %", "25 %, output: {snapshots: {strains: [5 %]}}"))
+        self.assertNotIn("output.snapshots", dict(asked.assignments(asked.combinations[0])))
+        not_asked = self.read(GOOD + "runs:\n  - {output: {history_lines: 50}}\n")
+        self.assertEqual(not_asked.assignments(not_asked.combinations[0])[-2:],
+                         [("output", "{history_lines: 50}"), ("output.snapshots", "0")])
+
     def test_of_a_list_go_with_every_combination(self):
         study = self.read(GOOD + "runs:\n  - {numerics.scheme: apic}\n"
                                  "  - {numerics.scheme: flip, numerics.cfl: 0.5}\n")

@@ -94,6 +94,16 @@ class Run:
         return sorted((self.folder / "checkpoints").glob("*.h5"))
 
 
+class _SceneLoader(yaml.SafeLoader):
+    """A name is a text, whatever it looks like: 007, 0.50, on or 2026-11-03."""
+
+    def construct_mapping(self, node, deep=False):
+        for key, value in node.value:
+            if key.value in ("name", "title"):
+                value.tag = yaml.resolver.BaseResolver.DEFAULT_SCALAR_TAG
+        return super().construct_mapping(node, deep)
+
+
 def _read_summary(path):
     if not path.exists():
         return None
@@ -107,7 +117,7 @@ def _read_scene(path):
     if not path.exists():
         return {}
     try:
-        scene = yaml.safe_load(path.read_text(encoding="utf-8"))
+        scene = yaml.load(path.read_text(encoding="utf-8"), _SceneLoader)
     except (OSError, ValueError, yaml.YAMLError) as error:
         said = " ".join(str(error).split())
         raise ResultsError(f"{path}: is no scene ({said}). Run again.") from None

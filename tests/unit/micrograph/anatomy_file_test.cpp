@@ -172,6 +172,7 @@ TEST_F(ParameterFile, PictureThatCannotBeWrittenIsAFileError)
   const Drawing picture = draw(wood, 1);
   EXPECT_THROW(write_bmp(picture, wood.picture, folder_ / "none" / "wood.bmp"), FileError);
   EXPECT_THROW(write_png(picture, folder_ / "none" / "wood.png"), FileError);
+  EXPECT_THROW(write_png(picture, "/dev/full"), FileError);  // as a full disk is
   write_bmp(picture, wood.picture, folder_ / "wood.bmp");
   EXPECT_EQ(bytes_of(folder_ / "wood.bmp"), bmp_bytes(picture, wood.picture));
   write_png(picture, folder_ / "wood.png");

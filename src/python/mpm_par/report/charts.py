@@ -87,10 +87,11 @@ def ranks(run):
     """Particles of each rank at the first and the last snapshot; None if that was not written."""
     if not run.snapshots or "rank" not in run.snapshots[0] or run.summary["ranks"] < 2:
         return None
-    counts = []
-    for snapshot in (run.snapshots[0], run.snapshots[-1]):
-        counts.append(sum(numpy.bincount(rank, minlength=run.summary["ranks"])
-                          for rank, in snapshot.blocks("rank")))
+    blocks = [[rank for rank, in snapshot.blocks("rank")]
+              for snapshot in (run.snapshots[0], run.snapshots[-1])]
+    # A run may have begun on more ranks than it ended on.
+    count = max(run.summary["ranks"], *(rank.max(initial=-1) + 1 for part in blocks for rank in part))
+    counts = [sum(numpy.bincount(rank, minlength=count) for rank in part) for part in blocks]
     numbers = numpy.arange(len(counts[0]))
 
     def draw(axes):
