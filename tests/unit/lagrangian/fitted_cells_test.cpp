@@ -83,6 +83,12 @@ class Block {
     for (LocalIndex p = 0; p < body_->particles.size(); ++p)
       EXPECT_EQ(least_stretches[std::size_t(p)], found[std::size_t(p)]);
   }
+  double wave_speed() const
+  {
+    LaneVector<double> least_stretches;
+    cells_->find_least_stretches(nodes_, least_stretches);
+    return cells_->wave_speed_at_rest(*body_, least_stretches, 0);
+  }
   const std::vector<Vec<2>>& forces() const { return forces_; }
   const ParticleStore& particles() const { return body_->particles; }
   const Law<2>& law() const { return *body_->law; }
@@ -188,6 +194,19 @@ TEST(FittedCells, HaveForcesThatAreTheGradientOfTheirEnergy)
           (at(node, axis, step)->energy() - at(node, axis, -step)->energy()) / (2 * step);
       EXPECT_NEAR(here->forces()[std::size_t(node)][axis], -slope, 1e-7) << node << ", " << axis;
     }
+}
+
+/// So that there is a time step in which it may come back.
+TEST(FittedCells, WithACornerThatIsTurnedThroughHaveAWaveSpeed)
+{
+  Block block;
+  int next = 0;
+  block.move([&](const Vec<2>&) -> Vec<2> {
+    const Vec<2> moved = next++ == nodes_across + 1 ? Vec<2>(-0.75 * size) : Vec<2>::Zero();
+    return moved;
+  });
+  EXPECT_GT(block.wave_speed(), 99 * block.law().wave_speed());
+  EXPECT_LT(block.wave_speed(), 300 * block.law().wave_speed());
 }
 
 TEST(FittedCells, FailByTheirStretchSinceRest)
