@@ -21,13 +21,14 @@ std::vector<IndexVec<Dim>> disc_of(int across)
   return disc;
 }
 
-/// Of a location beyond the specimen the one that stands for it.
+/// Of a location beyond the specimen, however far, the one that stands for it.
 template <int Dim>
 IndexVec<Dim> mirrored(IndexVec<Dim> at, const IndexVec<Dim>& count)
 {
   for (int d = 0; d < Dim; ++d) {
-    if (at[d] < 0) at[d] = -1 - at[d];
-    if (at[d] >= count[d]) at[d] = 2 * count[d] - 1 - at[d];
+    const LocalIndex period = 2 * count[d];
+    at[d] = (at[d] % period + period) % period;
+    if (at[d] >= count[d]) at[d] = period - 1 - at[d];
   }
   return at;
 }

@@ -2,10 +2,12 @@
 
 This is the part that runs; NumPy is loaded after it (see program.py).
 """
+import pathlib
+
 import store
 from problems import BAD_INPUT, InputError, NoResult
 from mpm_par.quantities import to_si
-from yaml_tree import Node, read_yaml
+from yaml_tree import read_value, read_yaml
 
 import resolution
 
@@ -53,11 +55,25 @@ def _get(tree, path):
     return tree
 
 
-def level_assignments(assignments, own, effective, cells, factor):
+def axes_of_pieces(scene, effective, cells):
+    """Along how many axes pieces of wall are looked for: of a picture that is drawn out, in a layer."""
+    named = getattr(_get(effective, "specimen.micrograph"), "text", None)
+    if named is None or len(cells) == 2:
+        return len(cells)
+    path = pathlib.Path(scene).parent / named
+    if "*" in path.name or path.name.endswith(".anatomy.yaml"):
+        return 3
+    from PIL import Image  # as NumPy, after the runs
+    with Image.open(path) as picture:
+        return 3 if getattr(picture, "n_frames", 1) > 1 else 2
+
+
+def level_assignments(assignments, own, effective, cells, factor, axes_of_pieces):
     """Settings of a level whose cells are `factor` times as large; what is given in cells or in
     particles is scaled so that the geometry stays.
 
-    own: the scene's tree; effective: that of the scene with every default; cells: of the scene."""
+    own: the scene's tree; effective: that of the scene with every default; cells: of the scene;
+    axes_of_pieces: along which pieces of wall extend."""
     if factor == 1:
         return assignments
     settings = dict(assignments)
@@ -71,7 +87,7 @@ def level_assignments(assignments, own, effective, cells, factor):
         settings["loading.load_cell.cells"] = str(max(1, round(int(load_cell.text) / factor)))
     specks = _get(effective, "specimen.remove_specks")
     if specks is not None and int(specks.text) > 0:
-        settings["specimen.remove_specks"] = str(round(int(specks.text) / factor ** len(cells)))
+        settings["specimen.remove_specks"] = str(round(int(specks.text) / factor ** axes_of_pieces))
     return list(settings.items())
 
 
@@ -96,7 +112,7 @@ def run_levels(given, program, output):
         raise InputError(f"{given.file}: has steps, and every level would end at another time. "
                          "Remove the key.")
     check_factors(given)
-    trees = [own, *(Node(value, "--set") for _, value in assignments)]
+    trees = [own, *(read_value(value, "--set") for _, value in assignments)]
     kept = store.Store(output, store.scene_print(given.file, trees), program.identity)
     base = _run_level(given, program, kept, assignments, 1)
     if base.ended.exit_status:
@@ -107,10 +123,11 @@ def run_levels(given, program, output):
                          "Use a study with an error of your own: docs/studies.md.")
     effective = read_yaml(base.folder / "scene.yaml")
     cells = base.summary["cells"]
+    axes = axes_of_pieces(given.file, effective, cells)
     found = [(1, base)]
     for factor in sorted({*given.levels, *(1 / f for f in given.finer)}, reverse=True):
-        done = _run_level(given, program, kept, level_assignments(assignments, own, effective,
-                                                                  cells, factor), factor)
+        settings = level_assignments(assignments, own, effective, cells, factor, axes)
+        done = _run_level(given, program, kept, settings, factor)
         if done.ended.exit_status == 0:
             found.append((factor, done))
     return sorted(found, key=lambda pair: -pair[0])

@@ -8,11 +8,11 @@ KEY is drawn from the text of the scene and of the files that it names, from the
 number of ranks and the program: what has changed is run anew.
 """
 import dataclasses
-import fnmatch
 import hashlib
 import json
 import os
 import pathlib
+import re
 import shutil
 
 import program
@@ -37,10 +37,11 @@ def _named_files(tree, folder):
             yield from _named_files(node, folder)
     elif 0 < len(tree.value) < 1000 and "\n" not in tree.value:
         path = folder / tree.value
-        if "*" in path.name and path.parent.is_dir():
+        if "*" in path.name and os.path.isdir(path.parent):
+            fits = re.compile(".*".join(map(re.escape, path.name.split("*"))), re.DOTALL)
             yield from (slice_ for slice_ in path.parent.iterdir()  # of a stack
-                        if fnmatch.fnmatchcase(slice_.name, path.name) and slice_.is_file())
-        elif path.is_file():
+                        if fits.fullmatch(slice_.name) and slice_.is_file())
+        elif os.path.isfile(path):  # of a text that is too long for a name as well
             yield path
 
 

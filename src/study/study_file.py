@@ -116,6 +116,7 @@ def read_study(path, quick=False, ranks=1):
     for key in ("scene", "error"):
         if key not in keys:
             raise root.wrong(f"{key} is missing", f"It is {KEYS[key]}.")
+    whole = keys
     if quick:
         keys = _quick(keys)
     scene = path.parent / keys["scene"].text
@@ -145,8 +146,10 @@ def read_study(path, quick=False, ranks=1):
         if "time_limit" in keys else None,
         measures=measures, targets=[0.01, 0.001], quick=quick)
     if "known" in keys:
+        # Which runs there are in full: those that the quick variant leaves out are no mistake.
+        all_runs, all_varied, _ = read_combinations(whole, ranks) if quick else (combinations, varied, nodes)
         study.known, study.known_source, study.known_run_time = read_known(
-            keys["known"], varied, combinations, measures)
+            keys["known"], all_varied, all_runs, measures)
     if "targets" in keys:
         node = keys["targets"]
         if not node.is_list or not node.value:

@@ -51,6 +51,15 @@ def _converted(node, file):
     return Node(entries, place)
 
 
+def read_value(text, place):
+    """The tree of a value, as --set takes it; what is no YAML is a text."""
+    try:
+        root = yaml.compose(text, Loader=yaml.SafeLoader)
+    except yaml.YAMLError:
+        root = None
+    return Node(text, place) if root is None else _converted(root, place)
+
+
 def read_yaml(path):
     """The tree of a file; an InputError with the line where it is no YAML."""
     try:

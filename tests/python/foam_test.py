@@ -1,8 +1,14 @@
 """Closed formulae against the founding paper's tables and against what they are made of."""
 import math
+import types
 import unittest
 
 from mpm_par import foam
+
+try:
+    from mpm_par.report import theory
+except ImportError:
+    theory = None
 
 # Nairn 2006, Table 2: relative density, yield stress, modulus, elastic and plastic buckling, MPa.
 # The yield stress there stands for 1.133 times its value, of plane strain (its eq. 3).
@@ -64,6 +70,27 @@ class Layers(unittest.TestCase):
             found = foam.layer_moduli(across, along, share)
             self.assertAlmostEqual(found[0] / soft, 1, delta=1e-6)
             self.assertAlmostEqual(found[1] / stiff, 1, delta=1e-6)
+
+    @unittest.skipUnless(theory, "needs NumPy, matplotlib and Pillow")
+    def test_are_those_of_the_lighter_window_whichever_is_named_first(self):
+        def run(piston, modulus, windows):
+            return types.SimpleNamespace(
+                axis=piston, properties={"modulus": modulus}, scene={"specimen": {"windows": windows}},
+                summary={"windows": {"early": 0.40, "late": 0.79}})
+
+        def rows(*windows):
+            entries = [{"settings": {"loading.piston": side}, "label": side, "level": ""}
+                       for side in ("right", "top")]
+            study = types.SimpleNamespace(title="", record={"along": None})
+            runs = [run(0, 2740e6, windows), run(1, 3252e6, windows)]
+            return theory.layer_rows(study, list(zip(entries, runs)))[1]
+
+        early, late = {"name": "early", "x": ["0", "0.473"]}, {"name": "late", "x": ["0.473", "1"]}
+        expected = [["right", "0.473", "2740", "3252", "1919", "4449"]]
+        self.assertEqual(rows(early, late), expected)
+        self.assertEqual(rows(late, early), expected)
+        # Two that do not part the width are no two layers.
+        self.assertEqual(rows({"name": "early", "x": [0, 0.4]}, {"name": "late", "x": [0.6, 1]}), [])
 
     def test_are_none_where_the_moduli_are_no_bounds(self):
         self.assertIsNone(foam.layer_moduli(3252, 2740, 0.473))

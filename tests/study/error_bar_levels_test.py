@@ -1,4 +1,5 @@
 """Settings of coarser and finer levels: the geometry stays; and bars out of figures of levels."""
+import tempfile
 import types
 import unittest
 
@@ -18,8 +19,8 @@ def tree(value):
 EMPTY = tree({})
 
 
-def level(factor, own=EMPTY, effective=EMPTY, given=(), cells=(150, 97)):
-    return dict(error_bar.level_assignments(list(given), own, effective, list(cells), factor))
+def level(factor, own=EMPTY, effective=EMPTY, given=(), cells=(150, 97), axes=2):
+    return dict(error_bar.level_assignments(list(given), own, effective, list(cells), factor, axes))
 
 
 class Levels(unittest.TestCase):
@@ -40,6 +41,27 @@ class Levels(unittest.TestCase):
         self.assertEqual(level(2, effective=effective),
                          {"grid.cells": "[75, 48]", "loading.load_cell.cells": "3",
                           "specimen.remove_specks": "5"})
+        specks = tree({"specimen": {"remove_specks": "20"}})
+        self.assertEqual(level(2, effective=specks, cells=(30, 30, 20), axes=3)["specimen.remove_specks"],
+                         "2")
+        self.assertEqual(level(2, effective=specks, cells=(30, 30, 20), axes=2)["specimen.remove_specks"],
+                         "5")
+
+    def test_look_for_pieces_of_a_picture_that_is_drawn_out_in_its_layers(self):
+        from PIL import Image
+        with tempfile.TemporaryDirectory() as folder:
+            pages = [Image.new("L", (4, 4), level) for level in (0, 255)]
+            pages[0].save(f"{folder}/one.tif")
+            pages[0].save(f"{folder}/two.tif", save_all=True, append_images=pages[1:])
+            pages[0].save(f"{folder}/one.png")
+
+            def axes(name, cells):
+                return error_bar.axes_of_pieces(f"{folder}/scene.yaml",
+                                                tree({"specimen": {"micrograph": name}}), cells)
+
+            self.assertEqual([axes(name, (3, 3, 3)) for name in ("one.png", "one.tif", "two.tif", "s_*.png")],
+                             [2, 2, 3, 3])
+            self.assertEqual([axes("one.png", (3, 3)), axes("pine.anatomy.yaml", (3, 3, 3))], [2, 3])
 
     def test_leave_the_scene_as_it_is(self):
         self.assertEqual(level(1, given=[("a", "b")]), {"a": "b"})

@@ -6,7 +6,7 @@ import unittest
 
 import store
 from program import Ended
-from yaml_tree import read_yaml
+from yaml_tree import read_value, read_yaml
 
 
 class Counting:
@@ -72,6 +72,27 @@ class Kept(unittest.TestCase):
         for content in b"black", b"white":
             (self.folder / "slice_2.png").write_bytes(content)
             self.assertTrue(self.needed(program))
+
+    def test_each_slice_of_a_stack_counts_whatever_else_its_name_holds(self):
+        self.scene.write_text("specimen: {micrograph: 'scan[1]?_*.png', depth: 2 * 3 um}\n")
+        program = Counting()
+        self.assertTrue(self.needed(program))
+        for content in b"black", b"white":
+            (self.folder / "scan[1]?_2.png").write_bytes(content)
+            self.assertTrue(self.needed(program))
+
+    def test_a_text_that_is_too_long_for_the_name_of_a_file_is_none(self):
+        self.scene.write_text(f"title: {300 * 'long '}\nspecimen: {{micrograph: picture.png}}\n")
+        self.assertTrue(self.needed(Counting()))
+
+    def test_a_picture_in_a_map_of_a_setting_counts(self):
+        prints = []
+        for content in b"black", b"white":
+            (self.folder / "b.png").write_bytes(content)
+            value = read_value("{micrograph: b.png, pixel_size: 1 um}", "--set")
+            prints.append(store.scene_print(self.scene, [read_yaml(self.scene), value]))
+        self.assertNotEqual(*prints)
+        self.assertEqual(read_value("[1, 2", "--set").text, "[1, 2")
 
     def test_what_fails_by_its_input_is_done(self):
         for status in (2, 3):

@@ -147,6 +147,13 @@ class Known(StudyFile):
         self.refused("2 GPa", "2 furlong", 12, "modulus is 2 furlong", "unknown unit", text=text)
         self.refused("  source: A paper\n", "", 10, "has no source", text=text)
 
+    def test_figures_of_runs_that_the_quick_variant_leaves_out_are_no_mistake(self):
+        text = GOOD + KNOWN + "quick:\n  vary: {numerics.shape_function: [quadratic]}\n"
+        study = self.read(text, quick=True)
+        self.assertEqual({tuple(study.known_of(run).items()) for run in study.combinations},
+                         {(("modulus", 2e9),)})
+        self.refused("gimp}, modulus: 3", "cubic}, modulus: 3", 13, "where fits no run", text=text)
+
     def test_how_long_others_took_is_a_pair_of_times(self):
         self.assertIsNone(self.read(GOOD + KNOWN).known_run_time)
         text = GOOD + KNOWN.replace("  runs:", "  run_time: [4 h, 5 h]\n  runs:")

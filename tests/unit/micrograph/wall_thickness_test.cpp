@@ -50,6 +50,25 @@ TEST(WallThickness, AWallOfTwoCellsIsNotThinAndOneOfAHalfLessIsAllOfIt)
   EXPECT_EQ(thin_in<3>(scene_of(6, {wall(3, 4.5)})).thin, 3 * 12 * 12);
 }
 
+TEST(WallThickness, OfWhatIsOneCellThickItselfIsThatOfItsMirrorImages)
+{
+  for (const int particles_per_cell : {1, 2, 4}) {
+    scene::Scene strip = scene_of(12, {wall(0, 12)});
+    strip.specimen.size[1] = strip.specimen.size[2] = 1;
+    strip.grid.cells = {12, 1, 1};
+    strip.grid.particles_per_cell = particles_per_cell;
+    EXPECT_EQ(thin_in(strip).thin, 0) << particles_per_cell;
+    const ThinCount all = thin_in<3>(strip);
+    EXPECT_EQ(all.thin, 0) << particles_per_cell;
+    EXPECT_EQ(all.filled, 12 * std::pow(particles_per_cell, 3));
+    strip.specimen.shapes = {wall(3, 4.5)};
+    const ThinCount narrow = thin_in(strip);
+    if (particles_per_cell > 1) {
+      EXPECT_EQ(narrow.thin, narrow.filled) << particles_per_cell;
+    }
+  }
+}
+
 TEST(WallThickness, AWallAcrossTheDiagonalIsMeasuredAcrossItself)
 {
   const auto oblique = [](double thickness) {

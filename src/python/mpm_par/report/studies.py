@@ -109,7 +109,9 @@ def window_rows(study, runs):
             inside, everywhere, volumes = work_in_windows(run, windows)
         except ResultsError:
             continue  # a report of that run says why
-        wall = run.summary["particles"] * run.snapshots[0].particle_volume
+        bodies = run.summary["plan"]["particles"]
+        wall = run.snapshots[0].particle_volume * sum(
+            body["count"] for name, body in bodies.items() if name != "load_cell")
         for k, window in enumerate(windows):
             shares = [f"{100 * work[k] / whole:.3g} at {100 * snapshot.strain:.3g} %"
                       for work, whole, snapshot in zip(inside, everywhere, run.snapshots)

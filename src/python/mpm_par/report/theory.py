@@ -71,7 +71,8 @@ def _mega(value):
 
 def layer_rows(study, runs):
     """(titles, rows): moduli of two layers across x, early- and latewood, out of those along x and
-    along y of the same specimen; of windows that part the specimen along x in two."""
+    along y of the same specimen; of windows that part the specimen along x in two, the lighter one
+    of which is the softer layer."""
     rows = []
     for entry, run in runs:
         if run.axis != 0 or not run.properties.get("modulus"):
@@ -80,12 +81,16 @@ def layer_rows(study, runs):
         partner = _partner(entry, run, runs)
         if len(windows) != 2 or partner is None:
             continue
-        share = float(windows[0]["x"][1]) - float(windows[0]["x"][0])
+        ends = sorted([float(end) for end in window["x"]] for window in windows)
+        if max(abs(ends[0][0]), abs(ends[1][0] - ends[0][1]), abs(ends[1][1] - 1)) > 1e-6:
+            continue
+        lighter = min(windows, key=lambda window: run.summary["windows"][window["name"]])
+        share = float(lighter["x"][1]) - float(lighter["x"][0])
         found = foam.layer_moduli(run.properties["modulus"], partner.properties["modulus"], share)
         rows.append([study_facts.name_of(study, entry), f"{share:.3f}",
                      _mega(run.properties["modulus"]), _mega(partner.properties["modulus"]),
                      *(map(_mega, found) if found else ("no two such layers", "-"))])
-    return ["run", "share of the first window", "modulus across (MPa)", "along (MPa)",
+    return ["run", "share of the lighter window", "modulus across (MPa)", "along (MPa)",
             "softer layer (MPa)", "stiffer layer (MPa)"], rows
 
 
