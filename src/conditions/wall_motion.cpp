@@ -8,7 +8,7 @@ namespace mpm {
 
 namespace {
 
-/// Area under a table of velocities from time 0 on.
+/// Area under a table of velocities, from any time before the first of its own on.
 double way_along(const std::vector<WallMotion::Entry>& table, double time)
 {
   double way = table.front().velocity * std::min(time, table.front().time);
@@ -39,7 +39,7 @@ double WallMotion::velocity(double time) const
 
 double WallMotion::displacement(double time) const
 {
-  if (!table.empty()) return way_along(table, time);
+  if (!table.empty()) return way_along(table, time) - way_along(table, 0);
   if (time >= ramp_time) return speed * (time - 0.5 * ramp_time);
   const double s = std::max(0.0, time / ramp_time);
   return speed * ramp_time * s * s * s * (1 - 0.5 * s);

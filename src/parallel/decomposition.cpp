@@ -2,9 +2,11 @@
 #include <mpm/parallel/decomposition.hpp>
 #include <mpm/parallel/session.hpp>
 
+#include <limits>
 #include <numeric>
 
 #include "petsc_check.hpp"
+#include <fmt/format.h>
 #include <petscdmda.h>
 
 namespace mpm {
@@ -17,6 +19,12 @@ GridHandle make_dmda(MPI_Comm comm, const Ownership<Dim>& wish)
 {
   if (!wish.by_cuts()) return {};
   const GridGeometry<Dim>& geometry = wish.geometry();
+  const double nodes = geometry.nodes.template cast<double>().prod();
+  if (nodes > double(std::numeric_limits<PetscInt>::max()))
+    throw InputError(fmt::format(
+        "grid.cells: the grid has {:.3g} nodes, more than this PETSc can number for straight cuts. "
+        "Set numerics.decomposition: metis, or build with a PETSc of 64-bit indices.",
+        nodes));
   const IndexVec<Dim> ranks = wish.ranks_per_axis();
   std::array<std::vector<PetscInt>, Dim> parts;
   DMBoundaryType ends[Dim];

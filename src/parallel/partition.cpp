@@ -73,8 +73,11 @@ Partition<Dim> choose_partition(const GridGeometry<Dim>& geometry, int ranks,
   };
   const auto blocks = [&] { return with_loads(block_ownership(geometry, ranks, work, before)); };
   if (rules.kind == PartitionKind::metis) return blocks();
-  Partition<Dim> straight = cuts();
   const bool grid_given = (rules.ranks.array() > 0).any();
+  if (rules.kind == PartitionKind::automatic && !grid_given &&
+      !can_be_cut<Dim>(geometry, ranks, rules.ranks))
+    return blocks();
+  Partition<Dim> straight = cuts();
   if (rules.kind == PartitionKind::cuts || grid_given || straight.imbalance() <= 1 + worth_of_cuts)
     return straight;
   Partition<Dim> ragged = blocks();

@@ -94,6 +94,14 @@ Ownership<Dim> weighted_cuts(const GridGeometry<Dim>& geometry, int ranks,
   return {geometry, std::move(cuts)};
 }
 
+template <int Dim>
+bool can_be_cut(const GridGeometry<Dim>& geometry, int ranks, const IndexVec<Dim>& per_axis)
+{
+  return chosen_ranks<Dim>(ranks, geometry, per_axis, std::nullopt)[0] > 0;
+}
+
+template bool can_be_cut<2>(const GridGeometry<2>&, int, const IndexVec<2>&);
+template bool can_be_cut<3>(const GridGeometry<3>&, int, const IndexVec<3>&);
 template Ownership<2> weighted_cuts<2>(const GridGeometry<2>&, int, const IndexVec<2>&,
                                        const LayerWeights<2>&, std::optional<int>);
 template Ownership<3> weighted_cuts<3>(const GridGeometry<3>&, int, const IndexVec<3>&,

@@ -76,6 +76,13 @@ void check_materials(const Checked& checked)
                    "it is made from Young's modulus and Poisson's ratio of the first material, "
                    "which law " +
                        first->law->keyword + " does not have");
+  else if (first != materials.end() && loading && loading->load_cell &&
+           !(first->values.number("poisson_ratio") < 0.5))
+    checked.refuse(
+        "loading.load_cell",
+        "it is made from Young's modulus and Poisson's ratio of the first material as an "
+        "isotropic solid, which has less than 0.5",
+        "Leave it out, or name another material first");
   if (!deformable) {
     checked.refuse(checked.material_path(0) + ".law", "no material is left that can be deformed",
                    "Add one of another law");

@@ -66,7 +66,12 @@ void History<Dim>::observe()
     energy_.check(formulation_, surplus(sum_over_bodies(formulation_)),
                   work_size_ + start_.kinetic_energy);
   }
-  if (!kind().load_cell || formulation_.steps() % steps_between_readings != 0) return;
+  if (kind().load_cell && formulation_.steps() % steps_between_readings == 0) read_load_cell();
+}
+
+template <int Dim>
+void History<Dim>::read_load_cell()
+{
   const AxialStress now = axial_stress(
       formulation_.bodies()[std::size_t(apparatus_->load_cell_body)], apparatus_->axis);
   load_cell_.mass_stress += now.mass_stress;
@@ -112,6 +117,12 @@ void History<Dim>::begin_line(HistoryLine& line)
   std::array<double, 2> cell{load_cell_.mass_stress, load_cell_.mass};
   load_cell_ = {};
   sum_over_ranks(comm(), cell);
+  if (kind().load_cell && !(cell[1] > 0)) {  // the line before was but a few steps ago
+    read_load_cell();
+    cell = {load_cell_.mass_stress, load_cell_.mass};
+    load_cell_ = {};
+    sum_over_ranks(comm(), cell);
+  }
   if (cell[1] > 0) line.load_cell_stress = -cell[0] / cell[1];
   if (!apparatus_) return;
   // A wall at the upper end pushes towards lower coordinates.

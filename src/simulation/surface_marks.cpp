@@ -17,7 +17,13 @@ class Rows {
   {
   }
 
-  std::size_t count() const { return std::size_t(locations_.prod() / locations_[mark_.axis]); }
+  std::size_t count() const
+  {
+    std::size_t rows = 1;
+    for (int d = 0; d < Dim; ++d)
+      if (d != mark_.axis) rows *= std::size_t(locations_[d]);
+    return rows;
+  }
 
   /// visit(particle, number of its row, how far towards the looker it is) for the specimen's
   /// particles: a load cell stands outside its box.

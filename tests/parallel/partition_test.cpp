@@ -70,6 +70,16 @@ TEST(PartitionChoice, WorkThatCutsCannotBalanceGoesToBlocks)
   EXPECT_LT(found.imbalance(), 1.05);
 }
 
+TEST(PartitionChoice, ANumberOfRanksThatNoGridOfThemHasGoesToBlocks)
+{
+  constexpr int prime = 37;  // parts of at least two nodes along one axis: there are not enough
+  const Partition<2> found = choose({}, prime, filled({{0, 0}, {60, 48}}));
+  EXPECT_FALSE(found.ownership.by_cuts());
+  EXPECT_GT(std::ranges::min(found.loads), 0);
+  EXPECT_THROW(choose({PartitionKind::cuts, {0, 0}, {}}, prime, filled({{0, 0}, {60, 48}})),
+               InputError);
+}
+
 TEST(PartitionChoice, AGivenProcessGridIsKept)
 {
   const Partition<2> found = choose({PartitionKind::automatic, {2, 2}, {}}, 4, diagonal);

@@ -275,6 +275,25 @@ TEST(Damping, AloneMakesVelocitiesFallExponentially)
   EXPECT_LT(slow.last().momentum_error, rounding);
 }
 
+/// It is read every few steps, and lines may come more often.
+TEST(LoadCell, HasAStressInEveryLine)
+{
+  for (const char* formulation : {"updated_lagrangian", "total_lagrangian"}) {
+    const Outcome pressed = run_scene(
+        R"(material: {law: isotropic, youngs_modulus: 1 MPa, poisson_ratio: 0.3, density: 1000 kg/m^3}
+specimen: {size: [1 m, 0.2 m], shapes: [{box: {lower: [0 m, 0 m], upper: [1 m, 0.2 m]}}]}
+grid: {cells: [20, 4]}
+loading: {piston: right, speed: 0.4 m/s, strain: 5 %, load_cell: {cells: 3}}
+output: {history_lines: 2000}
+numerics: {formulation: )" +
+        std::string(formulation) + "}\n");
+    const std::vector<HistoryLine>& lines = pressed.result.lines;
+    ASSERT_GT(lines.size(), 100u);
+    for (std::size_t k = lines.size() / 2; k < lines.size(); ++k)
+      ASSERT_GT(lines[k].load_cell_stress, 0.2 * lines[k].stress()) << formulation << ", " << k;
+  }
+}
+
 TEST(MovingSide, ThatFollowsATableTakesABlockAlong)
 {
   // 0.1 s up to 0.1 m/s and 0.1 s down again: a way of 1 cm; damping brings the block to rest.

@@ -19,4 +19,8 @@ Ownership<Dim> weighted_cuts(const GridGeometry<Dim>& geometry, int ranks,
                              const IndexVec<Dim>& per_axis, const LayerWeights<Dim>& weights,
                              std::optional<int> keep_whole);
 
+/// Whether there is a way to arrange so many ranks.
+template <int Dim>
+bool can_be_cut(const GridGeometry<Dim>& geometry, int ranks, const IndexVec<Dim>& per_axis);
+
 }  // namespace mpm

@@ -42,6 +42,7 @@ class History {
  private:
   MPI_Comm comm() const { return formulation_.decomposition().comm(); }
   void take_reactions();
+  void read_load_cell();
   void begin_line(HistoryLine& line);
   double surplus(const Sums<Dim>& sums) const;
   double work_ahead(const Sums<Dim>& sums) const;

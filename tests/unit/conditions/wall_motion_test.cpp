@@ -24,6 +24,23 @@ TEST(WallMotion, WithoutARampMovesAtOnce)
   EXPECT_DOUBLE_EQ(motion.time_of(12), 3);
 }
 
+/// From t = 0 on, also of a record that begins before.
+TEST(WallMotion, DisplacementIsTheIntegralOfATable)
+{
+  for (const double first : {-1.0, 0.0, 0.25}) {
+    const WallMotion motion{0, 0, {{first, 0}, {1, 2}, {1.5, -1}}};
+    EXPECT_EQ(motion.displacement(0), 0);
+    // The middles of intervals that end where the table bends.
+    constexpr int intervals = 80;
+    constexpr double step = 2.0 / intervals;
+    double integral = 0;
+    for (int k = 0; k < intervals; ++k) {
+      integral += step * motion.velocity((k + 0.5) * step);
+      EXPECT_NEAR(motion.displacement((k + 1) * step), integral, 1e-14) << first << ", " << k;
+    }
+  }
+}
+
 TEST(WallMotion, DisplacementIsTheIntegralOfTheVelocity)
 {
   const WallMotion motion{-3, 0.5};

@@ -4,6 +4,7 @@
 namespace mpm::scene {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -123,6 +124,15 @@ TEST_F(CrossChecks, ElasticEnergyOfATransverselyIsotropicLawIsPositive)
                           "+-0.7071, the square root of axial_modulus (1 - poisson_ratio) / (2 "
                           "youngs_modulus), or stretching would release energy)."));
   EXPECT_TRUE(problems(smallest + material + "0.70}\n").empty());
+}
+
+TEST_F(CrossChecks, ALoadCellOfAMaterialThatNoIsotropicSolidIsLike)
+{
+  EXPECT_THAT(problems("material: {law: transversely_isotropic, youngs_modulus: 1 GPa, "
+                       "poisson_ratio: 0.6, axial_modulus: 10 GPa, axial_poisson_ratio: 0.1, "
+                       "axial_shear_modulus: 1 GPa, density: 1 g/cm^3}\n" +
+                       smallest + "  load_cell: {cells: 3}\n"),
+              Contains(HasSubstr("which has less than 0.5")));
 }
 
 TEST_F(CrossChecks, StressLastWithLinearShapeFunctions)
