@@ -58,22 +58,23 @@ def _get(tree, path):
 def axes_of_pieces(scene, effective, cells):
     """Along how many axes pieces of wall are looked for: of a picture that is drawn out, in a layer."""
     named = getattr(_get(effective, "specimen.micrograph"), "text", None)
-    if named is None or len(cells) == 2:
+    if named is None or len(cells) == 2 or _get(effective, "specimen.remove_specks") is None:
         return len(cells)
     path = pathlib.Path(scene).parent / named
     if "*" in path.name or path.name.endswith(".anatomy.yaml"):
         return 3
     from PIL import Image  # as NumPy, after the runs
+    Image.MAX_IMAGE_PIXELS = None  # mpm_par has read it
     with Image.open(path) as picture:
         return 3 if getattr(picture, "n_frames", 1) > 1 else 2
 
 
-def level_assignments(assignments, own, effective, cells, factor, axes_of_pieces):
+def level_assignments(assignments, own, effective, cells, factor, piece_axes):
     """Settings of a level whose cells are `factor` times as large; what is given in cells or in
     particles is scaled so that the geometry stays.
 
     own: the scene's tree; effective: that of the scene with every default; cells: of the scene;
-    axes_of_pieces: along which pieces of wall extend."""
+    piece_axes: along how many axes pieces of wall are looked for."""
     if factor == 1:
         return assignments
     settings = dict(assignments)
@@ -87,7 +88,7 @@ def level_assignments(assignments, own, effective, cells, factor, axes_of_pieces
         settings["loading.load_cell.cells"] = str(max(1, round(int(load_cell.text) / factor)))
     specks = _get(effective, "specimen.remove_specks")
     if specks is not None and int(specks.text) > 0:
-        settings["specimen.remove_specks"] = str(round(int(specks.text) / factor ** axes_of_pieces))
+        settings["specimen.remove_specks"] = str(round(int(specks.text) / factor ** piece_axes))
     return list(settings.items())
 
 

@@ -57,7 +57,8 @@ class Levels(unittest.TestCase):
 
             def axes(name, cells):
                 return error_bar.axes_of_pieces(f"{folder}/scene.yaml",
-                                                tree({"specimen": {"micrograph": name}}), cells)
+                                                tree({"specimen": {"micrograph": name,
+                                                                   "remove_specks": "9"}}), cells)
 
             self.assertEqual([axes(name, (3, 3, 3)) for name in ("one.png", "one.tif", "two.tif", "s_*.png")],
                              [2, 2, 3, 3])
