@@ -38,6 +38,17 @@ go_on_with() {
   if [ -n "$(progress)" ]; then arguments+=(--restart); else arguments+=(--overwrite); fi
 }
 
+# submit_again NAME
+#
+# For PBS: another job that goes on with this one's scene, arguments and folder. PBS runs a copy of the
+# script as it was submitted, with all that was filled in there; where that is not to be read, it is NAME.
+submit_again() {
+  local script=${JOBSCRIPT:-$0} names=SCENE,ARGUMENTS,RESULTS,TIME_LIMIT,AGAIN,MPM_PAR,MPM_JOBSCRIPTS
+  if [ ! -r "$script" ]; then script=$jobscripts/$1; fi
+  export SCENE ARGUMENTS=${ARGUMENTS:-} RESULTS=$output TIME_LIMIT=$time_limit AGAIN=yes
+  qsub -v "$names${MPM_LAUNCH:+,MPM_LAUNCH}${JOBSCRIPT:+,JOBSCRIPT}" "$script"
+}
+
 # run_in_job SIGNAL STATUS COMMAND [ARGUMENT ...]
 #
 # Runs the command. The scheduler's warning, USR1, is handed on to it as SIGNAL, and it is expected to

@@ -56,6 +56,17 @@ TEST(Gravity, ABlockFallsWithGTimesTAndTheWayOfTheSteps)
   EXPECT_LT(fall.last().momentum_error, rounding);
 }
 
+/// Everywhere in a column 1 m high. The strain hardly differs within a cell, so that it carries its
+/// mean weight throughout.
+void expect_weight_above(const Outcome& column, double gravity)
+{
+  std::array<double, 20> stress{};
+  for (const Particle& p : column.particles) stress[std::size_t(p.start[0] * 20)] += p.stress[0];
+  for (std::size_t cell = 0; cell < 20; ++cell)
+    EXPECT_NEAR(stress[cell] / 16, -density * gravity * (1 - (double(cell) + 0.5) / 20),
+                0.002 * density * gravity);
+}
+
 TEST(Gravity, AColumnThatIsLoadedSlowlyCarriesItsWeight)
 {
   // The first period is 4 H / c = 0.11 s; the rate of damping is about critical for it.
@@ -65,12 +76,7 @@ TEST(Gravity, AColumnThatIsLoadedSlowlyCarriesItsWeight)
             "  - {kind: gravity, acceleration: [-10 m/s^2, 0 m/s^2], ramp_time: 0.2 s}\n"
             "  - {kind: damping, rate: 60 1/s}\n"));
   const double at_foot = density * 10 * 1.0;
-  // The strain hardly differs within a cell, so that it carries its mean weight throughout.
-  std::array<double, 20> stress{};
-  for (const Particle& p : column.particles) stress[std::size_t(p.start[0] * 20)] += p.stress[0];
-  for (std::size_t cell = 0; cell < 20; ++cell)
-    EXPECT_NEAR(stress[cell] / 16, -density * 10 * (1 - (double(cell) + 0.5) / 20),
-                0.002 * at_foot);
+  expect_weight_above(column, 10);
   EXPECT_LT(column.last().kinetic_energy, 1e-9 * column.last().elastic_energy);
   EXPECT_LT(std::abs(column.last().energy_error), 0.01);
   // The nominal stress is the weight above: tau exp(-tau / M) = -P. Its variation within a cell
@@ -96,11 +102,7 @@ TEST(Gravity, DoesNotWeighWhatMassScalingAdds)
             "loads:\n"
             "  - {kind: gravity, acceleration: [-60 m/s^2, 0 m/s^2], ramp_time: 0.2 s}\n"
             "  - {kind: damping, rate: 60 1/s}\n"));
-  std::array<double, 20> stress{};
-  for (const Particle& p : column.particles) stress[std::size_t(p.start[0] * 20)] += p.stress[0];
-  for (std::size_t cell = 0; cell < 20; ++cell)
-    EXPECT_NEAR(stress[cell] / 16, -density * 60 * (1 - (double(cell) + 0.5) / 20),
-                0.002 * density * 60);
+  expect_weight_above(column, 60);
 }
 
 TEST(Gravity, AndDampingDoNotActOnWhatIsRigid)
