@@ -1,4 +1,5 @@
 #include <mpm/micrograph/fitted_corners.hpp>
+#include <mpm/micrograph/mirrored.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +66,7 @@ class Fitter {
 
   std::size_t place(const IndexVec<2>& at) const { return std::size_t(number_in(box_, at)); }
 
-  /// A corner that stands for all its images.
+  /// A corner, or a location, that stands for all its images.
   IndexVec<2> folded(IndexVec<2> corner) const
   {
     for (int d = 0; d < 2; ++d)
@@ -76,12 +77,10 @@ class Fitter {
   /// Beyond the border there is the next period, or a mirror.
   int body(IndexVec<2> location) const
   {
-    for (int d = 0; d < 2; ++d) {
-      const LocalIndex count = lattice_.count[d];
-      const LocalIndex period = lattice_.periodic[std::size_t(d)] ? count : 2 * count;
-      location[d] = (location[d] % period + period) % period;
-      if (location[d] >= count) location[d] = period - 1 - location[d];
-    }
+    location = folded(location);
+    for (int d = 0; d < 2; ++d)
+      if (!lattice_.periodic[std::size_t(d)])
+        location[d] = mirrored(location[d], lattice_.count[d]);
     return lattice_.body(location);
   }
   bool is_wall(Vec<2> place) const

@@ -1,3 +1,4 @@
+#include <mpm/micrograph/mirrored.hpp>
 #include <mpm/micrograph/wall_thickness.hpp>
 
 #include <algorithm>
@@ -21,15 +22,11 @@ std::vector<IndexVec<Dim>> disc_of(int across)
   return disc;
 }
 
-/// Of a location beyond the specimen, however far, the one that stands for it.
+/// Of a location beyond the specimen the one that stands for it.
 template <int Dim>
-IndexVec<Dim> mirrored(IndexVec<Dim> at, const IndexVec<Dim>& count)
+IndexVec<Dim> within(IndexVec<Dim> at, const IndexVec<Dim>& count)
 {
-  for (int d = 0; d < Dim; ++d) {
-    const LocalIndex period = 2 * count[d];
-    at[d] = (at[d] % period + period) % period;
-    if (at[d] >= count[d]) at[d] = period - 1 - at[d];
-  }
+  for (int d = 0; d < Dim; ++d) at[d] = mirrored(at[d], count[d]);
   return at;
 }
 
@@ -47,7 +44,7 @@ ThinCount count_thin(const Specimen<Dim>& specimen, std::span<const scene::Mater
   std::vector<char> filled, covered(std::size_t(seen.size()), 0);
   filled.reserve(covered.size());
   for_each_index(seen, [&](const IndexVec<Dim>& at) {
-    filled.push_back(lattice(mirrored<Dim>(at, specimen.count())) != lattice.empty);
+    filled.push_back(lattice(within<Dim>(at, specimen.count())) != lattice.empty);
   });
   std::vector<LocalIndex> disc;
   for (const IndexVec<Dim>& offset : disc_of<Dim>(across))
