@@ -355,6 +355,14 @@ struct PointSpread {
 
 }  // namespace
 
+std::vector<double> middle_strains(std::span<const double> strain)
+{
+  std::vector<double> middles;
+  for (std::size_t i = 0; i < strain.size(); ++i)
+    middles.push_back(i == 0 ? strain[i] : 0.5 * (strain[i - 1] + strain[i]));
+  return middles;
+}
+
 CompressionProperties compression_properties(std::span<const double> strain,
                                              std::span<const double> stress,
                                              const CurveOptions& options)

@@ -61,6 +61,13 @@ try {
   throw InputError(fmt::format("{}:1: {}", file, error.what()));
 }
 
+/// Whether a run has written these stresses: means since the line before.
+bool are_means(const HistoryTable& table, const Request& request)
+{
+  return table.has("energy_error") && request.strain_column == "strain" &&
+         request.stress_column.starts_with("stress");
+}
+
 void print_point(const char* name, const std::optional<CurvePoint>& point)
 {
   if (!point)
@@ -103,14 +110,16 @@ void run(const Request& request)
   options.densification_from = from;
   options.densification_to = to;
   const HistoryTable table = mpm::output::read_history(request.file);
-  const std::vector<double> strain =
+  std::vector<double> strain =
       column_in_si(table, request.strain_column, Quantity::fraction, request.file);
+  const bool means = are_means(table, request);
+  if (means) strain = mpm::analysis::middle_strains(strain);
   const std::vector<double> stress =
       column_in_si(table, request.stress_column, Quantity::pressure, request.file);
   const CompressionProperties properties = compression_properties(strain, stress, options);
 
-  fmt::print("{}: {} over {}, {} lines\n", request.file, request.stress_column,
-             request.strain_column, strain.size());
+  fmt::print("{}: {} over {}, {} lines{}\n", request.file, request.stress_column,
+             request.strain_column, strain.size(), means ? ", means since the line before" : "");
   print_table(properties);
   if (!request.json.empty()) {
     mpm::output::Summary summary;

@@ -316,7 +316,7 @@ class Run {
     const double length = model_.apparatus->length;
     analysis::CurveOptions options;
     options.discard_strain = layout_.piston.displacement(2 * length / layout_.wave_speed) / length;
-    return analysis::compression_properties(strain, stress, options);
+    return analysis::compression_properties(analysis::middle_strains(strain), stress, options);
   }
 
   /// Goings back in a run, and what is left of the step after each.

@@ -36,6 +36,7 @@ class Folders(unittest.TestCase):
         self.assertAlmostEqual(run.history.at("plastic_work", 0.075), 0.5 * (0.4 + 1.9))
         # Stresses are means since the last line: 2 MPa is that of 2.5 %.
         self.assertAlmostEqual(run.history.at("stress", 0.05), 3e6)
+        self.assertEqual(list(run.history.strain_of("stress")), [0, 0.025, 0.075])
         self.assertTrue(run.history.at("stress", 0.2) != run.history.at("stress", 0.2), "NaN")
 
     def test_no_folder_and_no_run(self):

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace mpm::analysis {
 
@@ -43,6 +44,10 @@ struct CurveOptions {
   double densification_to = 4;  ///< above `densification_from`, which is above 1
   int resamples = 50;
 };
+
+/// Strains at which the lines of a run's history count, whose stresses are means since the line
+/// before: the middle between both, and the first line's own.
+std::vector<double> middle_strains(std::span<const double> strain);
 
 /// Any sampling; the same result for the same input everywhere (fixed seed).
 CompressionProperties compression_properties(std::span<const double> strain,

@@ -29,15 +29,20 @@ class History:
     def __len__(self):
         return len(next(iter(self.values.values())))
 
+    def strain_of(self, name):
+        """Strains [1] of a column's values, shape (lines,). A stress is the mean since the last
+        line and counts at the middle of it."""
+        own = self["strain"]
+        if name.startswith("stress"):
+            return numpy.append(own[0], 0.5 * (own[1:] + own[:-1]))
+        return own
+
     def at(self, name, strain):
         """A column at strains [1], of any shape, by straight lines between those of the history;
-        NaN beyond them. A stress is the mean since the last line and counts at the middle of it."""
-        own = self["strain"]
-        begin, end = own[0], own[-1]
-        if name.startswith("stress"):
-            own = numpy.append(own[0], 0.5 * (own[1:] + own[:-1]))
+        NaN beyond them."""
+        begin, end = self["strain"][[0, -1]]
         strain = numpy.asarray(strain, dtype=float)
-        found = numpy.interp(strain, own, self[name])
+        found = numpy.interp(strain, self.strain_of(name), self[name])
         return numpy.where((strain >= begin) & (strain <= end), found, numpy.nan)
 
 

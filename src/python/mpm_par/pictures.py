@@ -113,21 +113,21 @@ def draw_curve(axes, run, bars=None):
     """Stress [MPa] over strain [%]: the columns of the history, and of the summary the points with
     the lines they are read from. `bars`: numerical errors, as read_error_bar gives them; without
     them points bear the error of reading the curve. Raises ResultsError without a stress."""
-    strain = 100 * run.history["strain"]
+    end = run.history["strain"][-1]
     top = curve_top(run)
     for name, label, colour, width in CURVES:
         if name in run.history:
-            axes.plot(strain, run.history[name] / 1e6, color=colour, lw=width, label=label,
+            axes.plot(100 * run.history.strain_of(name), run.history[name] / 1e6, color=colour, lw=width, label=label,
                       zorder=3 if name == "stress" else 2)
     properties = run.properties
-    _lines(axes, properties, top, strain[-1] / 100)
+    _lines(axes, properties, top, end)
     for name, label, marker in (("buckling", "onset of buckling", "o"),
                                 ("densification", "onset of densification", "s")):
         if properties.get(name):
             _point(axes, properties[name], label, marker, _errors(bars, name, properties[name]))
     low = _finite_range(run.history["stress"])[0] / 1e6
     axes.set(xlabel="compressive strain (%)", ylabel="compressive stress (MPa)",
-             xlim=(0, max(strain[-1], 1e-9)), ylim=(max(min(low, 0), -0.1 * top / 1e6), top / 1e6))
+             xlim=(0, max(100 * end, 1e-9)), ylim=(max(min(low, 0), -0.1 * top / 1e6), top / 1e6))
     _grid(axes)
     axes.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.46, -0.16), ncols=2,
                 handlelength=1.7, columnspacing=1.4)

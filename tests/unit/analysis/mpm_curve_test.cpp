@@ -58,6 +58,44 @@ TEST(MpmCurve, PrintsTheTableOfARunAndWritesItAsJson)
   EXPECT_NEAR(json["compression"]["densification"]["strain"].get<double>(), 0.280, 0.002);
 }
 
+/// As runs write it: stresses are means since the line before.
+std::string history_of_means(int lines, const char* last_column)
+{
+  const std::string file = scratch("means.csv");
+  std::ofstream stream(file);
+  stream << "strain [1],stress [Pa]," << last_column << "\n0,0,0\n";
+  constexpr int parts = 100;
+  const double width = 0.6 / lines;
+  for (int i = 1; i <= lines; ++i) {
+    double sum = 0;
+    for (int k = 0; k < parts; ++k) sum += synthetic::wood(width * (i - 1 + (k + 0.5) / parts));
+    stream << width * i << ',' << sum / parts << ",0\n";
+  }
+  return file;
+}
+
+double onset_of_densification(const std::string& file, const std::string& words)
+{
+  const Outcome outcome = run(file + " --json " + scratch("onset.json"));
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr(words));
+  std::ifstream stream(scratch("onset.json"));
+  const auto json = nlohmann::json::parse(stream);
+  return json["compression"]["densification"]["strain"].get<double>();
+}
+
+TEST(MpmCurve, CountsMeansOfRunsAtTheMiddleOfTheirLines)
+{
+  const double onset =
+      onset_of_densification(wood_history("strain [1],stress [Pa]", 1, 1), "3001 lines\n");
+  constexpr double line = 0.6 / 300;
+  const std::string of_run = history_of_means(300, "energy_error [1]");
+  EXPECT_NEAR(onset_of_densification(of_run, "301 lines, means since the line before\n"), onset,
+              0.1 * line);
+  const std::string of_laboratory = history_of_means(300, "force [N]");
+  EXPECT_NEAR(onset_of_densification(of_laboratory, "301 lines\n"), onset + 0.5 * line, 0.1 * line);
+}
+
 TEST(MpmCurve, ConvertsTheUnitsOfALaboratoryTable)
 {
   const std::string file = wood_history("epsilon [%],sigma [MPa]", 0.01, 1e6);

@@ -55,7 +55,8 @@ def _frames(run, stage, colouring, snapshots, limit):
 
 def _curve(figure, run, height, total):
     axes = figure.add_axes([0.13, 0.42 / total, 0.83, height / total])
-    axes.plot(100 * run.history["strain"], run.history["stress"] / 1e6, color=pictures.INK, lw=1.2)
+    axes.plot(100 * run.history.strain_of("stress"), run.history["stress"] / 1e6,
+              color=pictures.INK, lw=1.2)
     axes.set(xlabel="compressive strain (%)", ylabel="stress (MPa)",
              xlim=(0, 100 * run.history["strain"][-1]), ylim=(0, pictures.curve_top(run) / 1e6))
     return axes.plot([], [], "o", color=pictures.RED, ms=7, clip_on=False, zorder=5)[0]

@@ -43,7 +43,7 @@ def _curves(stem, study, runs):
 
     def draw(axes):
         for k, (entry, run) in enumerate(runs):
-            axes.plot(100 * run.history["strain"], run.history["stress"] / 1e6, lw=1.2,
+            axes.plot(100 * run.history.strain_of("stress"), run.history["stress"] / 1e6, lw=1.2,
                       color=charts.COLOURS[k % len(charts.COLOURS)],
                       ls=("-", "--", ":", "-.")[k // len(charts.COLOURS) % 4],
                       label=study_facts.name_of(study, entry))
