@@ -63,6 +63,33 @@ bool RigidBody<Dim>::holds(const Vec<Dim>& place, const Vec<Dim>& tolerance) con
 }
 
 template <int Dim>
+bool RigidBody<Dim>::holds_image(const Vec<Dim>& place, const Vec<Dim>& period,
+                                 const Vec<Dim>& tolerance) const
+{
+  // One as near as can be to the middle, and those beside it: a body as wide as a period holds
+  // places at the seam from both of its sides.
+  Vec<Dim> nearest = place;
+  IndexBox<Dim> images{IndexVec<Dim>::Zero(), IndexVec<Dim>::Ones()};
+  for (int d = 0; d < Dim; ++d) {
+    if (period[d] <= 0) continue;
+    const double middle = 0.5 * (bounds_.lower[d] + bounds_.upper[d]);
+    nearest[d] -= period[d] * std::round((place[d] - middle) / period[d]);
+    images.lower[d] = -1;
+    images.upper[d] = 2;
+  }
+  bool found = false;
+  for_each_index(images, [&](const IndexVec<Dim>& image) {
+    if (found) return;
+    const Vec<Dim> there = nearest + image.template cast<double>().cwiseProduct(period);
+    if ((there.array() < (bounds_.lower - tolerance).array()).any() ||
+        (there.array() > (bounds_.upper + tolerance).array()).any())
+      return;
+    found = holds(there, tolerance);
+  });
+  return found;
+}
+
+template <int Dim>
 void RigidBody<Dim>::find_nodes(const Nodes<Dim>& nodes, double time)
 {
   const Vec<Dim> tolerance = on_the_face * nodes.spacing(), period = nodes.period();
@@ -79,15 +106,8 @@ void RigidBody<Dim>::find_nodes(const Nodes<Dim>& nodes, double time)
   }
   nodes.find_within(region, near_);
   found_.clear();
-  for (const LocalIndex node : near_) {
-    Vec<Dim> place = nodes.position(node) - moved;
-    for (int d = 0; d < Dim; ++d) {
-      if (period[d] <= 0) continue;
-      const double middle = 0.5 * (bounds_.lower[d] + bounds_.upper[d]);
-      place[d] -= period[d] * std::round((place[d] - middle) / period[d]);
-    }
-    if (holds(place, tolerance)) found_.push_back(node);
-  }
+  for (const LocalIndex node : near_)
+    if (holds_image(nodes.position(node) - moved, period, tolerance)) found_.push_back(node);
 }
 
 template <int Dim>

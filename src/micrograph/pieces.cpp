@@ -36,7 +36,7 @@ class DisjointSets {
 }  // namespace
 
 template <int Dim>
-Pieces connected_pieces(const Lattice<Dim>& lattice)
+Pieces connected_pieces(const Lattice<Dim>& lattice, const PeriodicAxes& periodic)
 {
   // Two passes over the rows: provisional labels from the neighbours that came before, then one
   // number for each set of labels that met.
@@ -48,12 +48,15 @@ Pieces connected_pieces(const Lattice<Dim>& lattice)
     const std::size_t here = location++;
     if (lattice.material[here] == Lattice<Dim>::empty) return;
     std::int32_t& label = pieces.label[here];
+    const auto hang_on = [&](std::int32_t other) {
+      if (other == Pieces::none) return;
+      label = label == Pieces::none ? other : sets.join(label, other);
+    };
     std::size_t stride = 1;
     for (int d = 0; d < Dim; stride *= std::size_t(lattice.part.count()[d++])) {
-      if (at[d] == lattice.part.lower[d]) continue;
-      const std::int32_t before = pieces.label[here - stride];
-      if (before == Pieces::none) continue;
-      label = label == Pieces::none ? before : sets.join(label, before);
+      if (at[d] > lattice.part.lower[d]) hang_on(pieces.label[here - stride]);
+      if (periodic[std::size_t(d)] && lattice.part.lower[d] == 0 && at[d] + 1 == lattice.count[d])
+        hang_on(pieces.label[here - stride * std::size_t(at[d])]);
     }
     if (label == Pieces::none) label = sets.add();
   });
@@ -93,13 +96,15 @@ bool is_larger(const Group& a, const Group& b)
 class BorderPieces {
  public:
   template <int Dim>
-  BorderPieces(const Lattice<Dim>& held, const Pieces& pieces, const Share& share)
+  BorderPieces(const Lattice<Dim>& held, const Pieces& pieces, bool is_periodic, const Share& share)
   {
     // Slabs are cut across the last axis into layers; in the plane a layer is a row.
     constexpr int last = Dim - 1;
     const IndexBox<Dim> whole{IndexVec<Dim>::Zero(), held.count};
     const auto layer_size = std::size_t(whole.size() / held.count[last]);
-    std::vector<LocalIndex> borders;  // layers that are the first of a part, but for the lowest
+    // Layers that are the first of a part, without the lowest if it goes on from none.
+    std::vector<LocalIndex> borders;
+    if (is_periodic) borders.push_back(0);
     for (int part = 0; part < share.parts; ++part)
       if (const LocalIndex layer = slab(whole, part, share.parts).lower[last];
           layer > 0 && layer < held.count[last] && (borders.empty() || layer > borders.back()))
@@ -109,7 +114,8 @@ class BorderPieces {
     std::vector<double> sides(borders.size() * layer_size * 4);
     for (std::size_t border = 0; border < borders.size(); ++border)
       for (int above = 0; above < 2; ++above) {
-        const LocalIndex layer = borders[border] - 1 + above;
+        const LocalIndex layer =
+            (borders[border] - 1 + above + held.count[last]) % held.count[last];
         if (layer < held.part.lower[last] || layer >= held.part.upper[last]) continue;
         const std::size_t first = std::size_t(layer - held.part.lower[last]) * layer_size;
         for (std::size_t i = 0; i < layer_size; ++i) {
@@ -204,8 +210,10 @@ template <int Dim>
 std::vector<Run> removed_runs(const Lattice<Dim>& slab_of_part, const PieceRules& rules,
                               const Share& share)
 {
-  const Pieces pieces = connected_pieces(slab_of_part);
-  BorderPieces at_borders(slab_of_part, pieces, share);
+  PeriodicAxes within = rules.periodic;
+  within[Dim - 1] = false;  // along it parts are slabs
+  const Pieces pieces = connected_pieces(slab_of_part, within);
+  BorderPieces at_borders(slab_of_part, pieces, rules.periodic[Dim - 1], share);
   std::vector<Group> groups;  // the whole that each piece is part of
   Group largest{std::numeric_limits<GlobalIndex>::max(), 0};
   for (std::size_t piece = 0; piece < pieces.size.size(); ++piece) {
@@ -233,8 +241,8 @@ std::vector<Run> removed_runs(const Lattice<Dim>& slab_of_part, const PieceRules
   return gathered(runs, share);
 }
 
-template Pieces connected_pieces<2>(const Lattice<2>&);
-template Pieces connected_pieces<3>(const Lattice<3>&);
+template Pieces connected_pieces<2>(const Lattice<2>&, const PeriodicAxes&);
+template Pieces connected_pieces<3>(const Lattice<3>&, const PeriodicAxes&);
 template std::vector<Run> removed_runs<2>(const Lattice<2>&, const PieceRules&, const Share&);
 template std::vector<Run> removed_runs<3>(const Lattice<3>&, const PieceRules&, const Share&);
 

@@ -4,6 +4,7 @@
 #include <mpm/micrograph/material_names.hpp>
 #include <mpm/micrograph/section.hpp>
 #include <mpm/micrograph/threshold.hpp>
+#include <mpm/scene/sides.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -134,7 +135,7 @@ Section<Dim>::Section(const scene::Scene& scene, Picture picture, const IndexVec
   const bool by_threshold = of_pixels.empty();
   if (by_threshold) {
     figures_.threshold =
-        aim ? threshold_of_density(*aim, micrograph.wall, picture.size, held.part, means, share)
+        aim ? threshold_of_density(*aim, micrograph, picture.size, held.part, means, share)
         : micrograph.threshold_rule == ThresholdRule::otsu ? otsu_threshold(image_.gray)
                                                            : micrograph.threshold;
     figures_.threshold += micrograph.threshold_shift;
@@ -155,25 +156,27 @@ Section<Dim>::Section(const scene::Scene& scene, Picture picture, const IndexVec
   const double filled = count_in(means, bands_, share);
   if (filled == 0) fail_without_wall(micrograph, figures_.threshold, means, whole.size(), share);
   held.material = materials_of(means, bands_);
-  if (micrograph.remove_specks > 1 || micrograph.remove_unconnected)
-    remove_pieces(micrograph, held, filled, share);
-  if (micrograph.remove_unconnected) return;
-  for (const Run& run : removed_runs(held, {.only_largest = true}, share))
+  PieceRules rules{micrograph.remove_specks, micrograph.remove_unconnected};
+  for (int d = 0; d < Dim; ++d) rules.periodic[std::size_t(d)] = scene::is_periodic(scene, d);
+  if (rules.fewest_locations > 1 || rules.only_largest) remove_pieces(rules, held, filled, share);
+  if (rules.only_largest) return;
+  for (const Run& run :
+       removed_runs(held, {.only_largest = true, .periodic = rules.periodic}, share))
     figures_.unconnected += run.end - run.begin;
 }
 
 template <int Dim>
-double Section<Dim>::threshold_of_density(double target, scene::Wall wall,
+double Section<Dim>::threshold_of_density(double target, const scene::Micrograph& micrograph,
                                           const std::array<double, 2>& size,
                                           const IndexBox<Dim>& part, std::vector<double>& means,
                                           const Share& share)
 {
-  const double threshold = threshold_for_density(means, target, wall, share);
+  const double threshold = threshold_for_density(means, target, micrograph.wall, share);
   if (std::ranges::min(image_.gray) == std::ranges::max(image_.gray)) return threshold;
   // Beyond the gray of the walls or of the lumens a threshold parts noise.
   const GrayClasses classes = gray_classes(image_);
   const double locations = double(IndexBox<Dim>{IndexVec<Dim>::Zero(), count_}.size());
-  const Band found = wall_band(threshold, wall);
+  const Band found = wall_band(threshold, micrograph.wall);
   const double missed =
       std::abs(count_in(means, {&found, 1}, share) / locations - target) - 0.5 / locations;
   constexpr double tolerated = 0.005;
@@ -187,25 +190,26 @@ double Section<Dim>::threshold_of_density(double target, scene::Wall wall,
                     classes.dark, classes.bright, target));
 
   const std::array<double, 2> pixel{size[0] / image_.width, size[1] / image_.height};
-  GrownWalls grown = grown_walls(image_, classes, wall, pixel);
+  GrownWalls grown = grown_walls(image_, classes, micrograph.wall, pixel);
   image_ = std::move(grown.image);
   means = location_means(image_, count_, part);
-  const double level = threshold_for_density(means, target, wall, share);
-  figures_.growth = grown.growth(level) * std::sqrt(pixel[0] * pixel[1]);
+  const double level = threshold_for_density(means, target, micrograph.wall, share);
+  figures_.growth =
+      grown.growth(level + micrograph.threshold_shift) * std::sqrt(pixel[0] * pixel[1]);
   return level;
 }
 
 template <int Dim>
-void Section<Dim>::remove_pieces(const scene::Micrograph& micrograph, Lattice<Dim>& held,
-                                 double filled, const Share& share)
+void Section<Dim>::remove_pieces(const PieceRules& rules, Lattice<Dim>& held, double filled,
+                                 const Share& share)
 {
-  removed_ = removed_runs(held, {micrograph.remove_specks, micrograph.remove_unconnected}, share);
+  removed_ = removed_runs(held, rules, share);
   for (const Run& run : removed_) figures_.removed += run.end - run.begin;
   if (double(figures_.removed) == filled)
     throw InputError(
         fmt::format("no cell wall left: every piece has fewer than specimen.remove_specks = {} "
                     "locations. Lower it.",
-                    micrograph.remove_specks));
+                    rules.fewest_locations));
   leave_out_removed(held.part, held.material);
 }
 

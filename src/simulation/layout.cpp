@@ -1,3 +1,4 @@
+#include <mpm/scene/sides.hpp>
 #include <mpm/simulation/layout.hpp>
 #include <mpm/simulation/method.hpp>
 
@@ -27,7 +28,7 @@ const scene::Loading* loading_of(const scene::Scene& scene)
 double margin_of(const scene::Scene& scene, int axis, bool upper, double size)
 {
   const double margin = scene.grid.margin[std::size_t(2 * axis + upper)];
-  const auto side = side_of(scene, axis, upper);
+  const auto side = scene::side_of(scene, axis, upper);
   const bool open = loading_of(scene) && side && (*side)->open();
   return open && margin == 0 ? free_margin * size : margin;
 }
@@ -38,7 +39,7 @@ bool has_wall(const scene::Scene& scene, int axis, bool upper)
   if (const auto* free = std::get_if<scene::FreeMotion>(&scene.motion))
     for (const scene::MovingSide& moving : free->moving_sides)
       if (axis_of(moving.side) == axis && upper_of(moving.side) == upper) return false;
-  if (const auto side = side_of(scene, axis, upper)) return (*side)->is_wall();
+  if (const auto side = scene::side_of(scene, axis, upper)) return (*side)->is_wall();
   const scene::Loading& loading = *loading_of(scene);  // the edge is fixed, and holds or pushes
   return upper_of(loading.piston) != upper && loading.grip != scene::Grip::contact;
 }
@@ -66,8 +67,7 @@ void lay_grid(const scene::Scene& scene, const micrograph::Specimen<Dim>& specim
     const double size = specimen.size()[d], h = size / specimen.cells()[d];
     layout.geometry.spacing[d] = h;
     layout.location_size[d] = h / layout.per_cell;
-    const auto side = side_of(scene, d, false);
-    layout.geometry.periodic[d] = side && (*side)->periodic;
+    layout.geometry.periodic[d] = scene::is_periodic(scene, d);
     const auto cells = [&](bool upper) -> LocalIndex {
       if (layout.geometry.periodic[d]) return 0;
       return ghost_cells + LocalIndex(std::ceil(margin_of(scene, d, upper, size) / h - 1e-9));
@@ -131,16 +131,6 @@ double share_beside_walls(const scene::Scene& scene)
 }
 
 }  // namespace
-
-std::optional<scene::Lateral> side_of(const scene::Scene& scene, int axis, bool upper)
-{
-  const auto* loading = loading_of(scene);
-  if (!loading)
-    return std::get<scene::FreeMotion>(scene.motion).sides[std::size_t(2 * axis + upper)];
-  const int piston = axis_of(loading->piston);
-  if (axis == piston) return std::nullopt;
-  return loading->lateral[std::size_t(2 * (axis - (axis > piston)) + upper)];
-}
 
 template <int Dim>
 std::array<WallMotion, Dim> motion_of(const scene::Material& rigid)

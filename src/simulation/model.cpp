@@ -1,6 +1,7 @@
 #include <mpm/core/error.hpp>
 #include <mpm/lagrangian/location_cells.hpp>
 #include <mpm/parallel/session.hpp>
+#include <mpm/scene/sides.hpp>
 #include <mpm/simulation/body_contacts.hpp>
 #include <mpm/simulation/fitted_surface.hpp>
 #include <mpm/simulation/method.hpp>
@@ -178,7 +179,7 @@ void add_sides(const scene::Scene& scene, const Specimen<Dim>& specimen, const L
 {
   for (int axis = 0; axis < Dim; ++axis)
     for (const bool upper : {false, true}) {
-      const auto side = side_of(scene, axis, upper);
+      const auto side = scene::side_of(scene, axis, upper);
       if (!side) continue;
       auto condition =
           make_side<Dim>(**side, {placement_of(specimen, axis, upper), model.apparatus.has_value(),

@@ -1,6 +1,7 @@
 #include <mpm/lagrangian/location_mesh.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/parallel/shared_nodes.hpp>
+#include <mpm/scene/sides.hpp>
 #include <mpm/simulation/body_contacts.hpp>
 #include <mpm/simulation/mesh_count.hpp>
 #include <mpm/simulation/method.hpp>
@@ -100,7 +101,7 @@ std::vector<std::string> conditions_of(const Preparation<Dim>& preparation)
   }
   for (int axis = 0; axis < Dim; ++axis)
     for (const bool upper : {false, true})
-      if (const auto side = side_of(scene, axis, upper); side && (*side)->is_wall())
+      if (const auto side = scene::side_of(scene, axis, upper); side && (*side)->is_wall())
         list.push_back(
             fmt::format("{}: {}", side_words[std::size_t(2 * axis + upper)], (*side)->keyword));
   if (const auto* free = std::get_if<scene::FreeMotion>(&scene.motion))

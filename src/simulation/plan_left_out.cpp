@@ -1,3 +1,4 @@
+#include <mpm/scene/sides.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/plan.hpp>
 #include <mpm/simulation/preparation.hpp>
@@ -33,7 +34,7 @@ bool any_condition(const Plan& plan, std::string_view words)
 bool any_periodic(const scene::Scene& scene, int dimensions)
 {
   for (int axis = 0; axis < dimensions; ++axis)
-    if (const auto side = side_of(scene, axis, false); side && (*side)->periodic) return true;
+    if (scene::is_periodic(scene, axis)) return true;
   return false;
 }
 

@@ -29,6 +29,8 @@ class RigidBody final : public BoundaryCondition<Dim> {
   void find_nodes(const Nodes<Dim>& nodes, double time);
   /// Whether a place, counted from where the body was at time 0, is on or inside a box.
   bool holds(const Vec<Dim>& place, const Vec<Dim>& tolerance) const;
+  /// The same of any of its images; `period` is 0 along axes that are not periodic.
+  bool holds_image(const Vec<Dim>& place, const Vec<Dim>& period, const Vec<Dim>& tolerance) const;
   IndexVec<Dim> bucket_of(const Vec<Dim>& place) const;
   static GlobalIndex key_of(const IndexVec<Dim>& bucket);
 

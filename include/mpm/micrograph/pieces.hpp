@@ -5,7 +5,12 @@
 #include <mpm/micrograph/lattice.hpp>
 #include <mpm/micrograph/share.hpp>
 
+#include <array>
+
 namespace mpm::micrograph {
+
+/// Axes whose upper side a specimen's lower one goes on from.
+using PeriodicAxes = std::array<bool, 3>;
 
 /// The pieces of one part on its own.
 struct Pieces {
@@ -15,14 +20,16 @@ struct Pieces {
   std::vector<GlobalIndex> first;   ///< per piece: number of its first location in the whole
 };
 
-/// Pieces are numbered in the order of their first location. Materials are not told apart.
+/// Pieces are numbered in the order of their first location. Materials are not told apart. Pieces
+/// hang together across periodic axes along which the part is the whole.
 template <int Dim>
-Pieces connected_pieces(const Lattice<Dim>& lattice);
+Pieces connected_pieces(const Lattice<Dim>& lattice, const PeriodicAxes& periodic = {});
 
 /// Which pieces stay.
 struct PieceRules {
   std::int64_t fewest_locations = 0;
   bool only_largest = false;  ///< of those that are large enough; the first of equals
+  PeriodicAxes periodic{};
 };
 
 /// Locations [begin, end) of a row along x; rows are numbered upwards, in space layer by layer.
@@ -39,8 +46,8 @@ template <int Dim>
 std::vector<Run> removed_runs(const Lattice<Dim>& slab_of_part, const PieceRules& rules,
                               const Share& share);
 
-extern template Pieces connected_pieces<2>(const Lattice<2>&);
-extern template Pieces connected_pieces<3>(const Lattice<3>&);
+extern template Pieces connected_pieces<2>(const Lattice<2>&, const PeriodicAxes&);
+extern template Pieces connected_pieces<3>(const Lattice<3>&, const PeriodicAxes&);
 extern template std::vector<Run> removed_runs<2>(const Lattice<2>&, const PieceRules&,
                                                  const Share&);
 extern template std::vector<Run> removed_runs<3>(const Lattice<3>&, const PieceRules&,

@@ -55,11 +55,11 @@ class Section {
   /// The threshold that gives the relative density, in the picture or, where none does, in that of
   /// the distances from its walls' surface, which takes the picture's place (not of a stack).
   /// `means`: of `part`. Collective.
-  double threshold_of_density(double target, scene::Wall wall, const std::array<double, 2>& size,
-                              const IndexBox<Dim>& part, std::vector<double>& means,
-                              const Share& share);
+  double threshold_of_density(double target, const scene::Micrograph& micrograph,
+                              const std::array<double, 2>& size, const IndexBox<Dim>& part,
+                              std::vector<double>& means, const Share& share);
   /// `held`: this part's slab, `filled`: locations of all parts. Collective.
-  void remove_pieces(const scene::Micrograph& micrograph, Lattice<Dim>& held, double filled,
+  void remove_pieces(const PieceRules& rules, Lattice<Dim>& held, double filled,
                      const Share& share);
   void leave_out_removed(const IndexBox<Dim>& part, std::vector<std::int8_t>& materials) const;
 

@@ -52,9 +52,6 @@ struct Layout {
 template <int Dim>
 Layout<Dim> make_layout(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen);
 
-/// What a side of the grid is; none for piston and fixed edge.
-std::optional<scene::Lateral> side_of(const scene::Scene& scene, int axis, bool upper);
-
 /// Time at which the piston has travelled a share of the specimen's length (m), s.
 double time_of_strain(const WallMotion& piston, double length, double strain);
 

@@ -12,7 +12,8 @@ template <int Dim>
 struct MovingNodes {
   NodeGrid<Dim> grid;
 
-  explicit MovingNodes(double mass_cut = 0) : grid(geometry(), box(8), box(6), mass_cut)
+  explicit MovingNodes(double mass_cut = 0, bool periodic_along_x = false)
+      : grid(geometry(periodic_along_x), box(8), box(6), mass_cut)
   {
     for (LocalIndex node = 0; node < grid.topology.size(); ++node) grid.topology.touch(node);
     grid.end_activity(2);
@@ -45,10 +46,12 @@ struct MovingNodes {
   }
 
  private:
-  static GridGeometry<Dim> geometry()
+  static GridGeometry<Dim> geometry(bool periodic_along_x)
   {
     const Vec<3> spacing(0.5, 0.25, 1);
-    return {Vec<Dim>::Zero(), spacing.head<Dim>(), IndexVec<Dim>::Constant(9)};
+    GridGeometry<Dim> geometry{Vec<Dim>::Zero(), spacing.head<Dim>(), IndexVec<Dim>::Constant(9)};
+    geometry.periodic[0] = periodic_along_x;
+    return geometry;
   }
   static IndexBox<Dim> box(LocalIndex end_of_x)
   {

@@ -62,6 +62,20 @@ TEST(RigidBody, MovesNodesInSpace)
   expect_moving_box<3>(nodes, {1, 3, 3}, {3, 5, 5}, velocity);
 }
 
+TEST(RigidBody, AsWideAsAPeriodHoldsTheSeamFromBothSides)
+{
+  // [0, 0.5] x [0.75, 1.25] m and [4, 4.5] x [1.5, 2] m, in a period of 4.5 m.
+  MovingNodes<2> nodes(0, true);
+  RigidBody<2> body({{0.25, 1.0}, {4.25, 1.75}}, {0.25, 0.25}, steadily<2>({3, -2}),
+                    ReactionBook::increments);
+  body.constrain_updated(nodes.grid.topology, nodes.grid.fields, 0, 0);
+  for (LocalIndex node = 0; node < nodes.grid.topology.size(); ++node) {
+    const IndexVec<2> at = nodes.index(node);
+    const bool held = at[1] >= 3 && ((at[0] <= 1 && at[1] <= 5) || (at[0] == 0 && at[1] >= 6));
+    EXPECT_EQ(nodes.updated(node, 0), held ? 3 : nodes.velocity(node, 0)) << at.transpose();
+  }
+}
+
 TEST(RigidBody, OutsideThisRanksNodesDoesNothing)
 {
   MovingNodes<2> nodes;

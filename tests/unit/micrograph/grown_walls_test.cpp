@@ -114,6 +114,19 @@ TEST_F(RingOfTwoGrays, GrowsAndShrinksToTheDensityAskedFor)
   }
 }
 
+TEST_F(RingOfTwoGrays, TellsHowThickAShiftedThresholdLeavesThem)
+{
+  const double aimed = aimed_at(share(5)).picture()->growth;
+  for (const double shift : {-190.0, 190.0}) {
+    scene_.specimen.micrograph->threshold_shift = shift;
+    const Specimen<2> specimen = aimed_at(share(5));
+    const double growth = specimen.picture()->growth;
+    EXPECT_GT(std::abs(growth - aimed), 1e-6) << shift;
+    // As near as above: 0.6 um all around are 0.0092 of it.
+    EXPECT_NEAR(specimen.densities()[0].value, share(growth * 1e6), 0.0092) << shift;
+  }
+}
+
 TEST_F(RingOfTwoGrays, StaysAsItIsWhereAThresholdGivesTheDensity)
 {
   EXPECT_EQ(aimed_at(share(0)).picture()->growth, 0);

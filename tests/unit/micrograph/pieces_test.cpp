@@ -173,5 +173,27 @@ TEST(Pieces, InSpaceFacesConnectLayers)
   EXPECT_EQ(left({.only_largest = true}), stair_alone);
 }
 
+TEST(Pieces, HangTogetherAcrossPeriodicSides)
+{
+  // A wall whose two halves lie at the sides, and a speck.
+  const Rows across{"00.0.00",  //
+                    "0.....0",  //
+                    "00...00"};
+  EXPECT_EQ(kept(across, {.only_largest = true}), (Rows{"00.....",  //
+                                                        "0......",  //
+                                                        "00....."}));
+  EXPECT_EQ(kept(across, {.only_largest = true, .periodic = {true}}), (Rows{"00...00",  //
+                                                                            "0.....0",  //
+                                                                            "00...00"}));
+  const Rows up{"0..", "0..", "...", "...", ".0.", "0..", "0.."};
+  EXPECT_EQ(kept(up, {.only_largest = true, .periodic = {true}}),
+            (Rows{"0..", "0..", "...", "...", "...", "...", "..."}));
+  EXPECT_EQ(kept(up, {.fewest_locations = 3, .periodic = {false, true}}),
+            (Rows{"0..", "0..", "...", "...", "...", "0..", "0.."}));
+  // Corners alone do not connect there either.
+  EXPECT_EQ(kept({"0...", "...0"}, {.fewest_locations = 2, .periodic = {true, true}}),
+            (Rows{"....", "...."}));
+}
+
 }  // namespace
 }  // namespace mpm::micrograph::test

@@ -216,6 +216,13 @@ TEST_F(SpecimenOfPicture, SpecksAndLoosePiecesAreRemovedAndCounted)
   micrograph.remove_specks = 4;
   EXPECT_THAT(error_of(scene), StartsWith("no cell wall left: every piece has fewer than "
                                           "specimen.remove_specks = 4 locations."));
+
+  scene.motion = scene::FreeMotion{
+      1, {"periodic", "periodic", "free", "free", "free", "free"}, {}};  // the last meets the first
+  EXPECT_THAT(filled(scene), ElementsAre(0, -1, -1, -1, -1, 0, 0, 0));
+  micrograph.remove_unconnected = false;
+  micrograph.remove_specks = 0;
+  EXPECT_EQ(built(scene).picture()->unconnected, 2);
 }
 
 // ------------------------------------------------------------------------------------- bands
