@@ -309,6 +309,12 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
     if (is_with_a_copy(pair.cells))
       told[std::size_t(pair.pair)] = pair.stiffness[pair.cells[0] < cells() ? 0 : 1];
   side_ghosts_.update(told, 1);
+  // A contact is as stiff as both of its sides together.
+  const auto over_own = [&](LocalIndex own, LocalIndex other) {
+    return is_rigid(own) || is_rigid(other)
+               ? 1.0
+               : stiffness_[std::size_t(other)] / stiffness_[std::size_t(own)];
+  };
   std::vector<double> pressed(cells_.size(), 0.0);
   for (const Touched& pair : touched_)
     for (const std::size_t side : {0, 1}) {
@@ -316,14 +322,17 @@ void OverlapContact<Dim>::count_stiffness(std::span<LaneVector<double>> least_st
       const double other = pair.cells[1 - side] < cells()
                                ? pair.stiffness[1 - side]
                                : told[std::size_t(other_side_[std::size_t(pair.pair)])];
+      const double of_other = over_own(pair.cells[side], pair.cells[1 - side]) * other;
       pressed[std::size_t(pair.cells[side])] +=
-          pair.share[side] * 0.5 * (pair.stiffness[side] + other);
+          pair.share[side] * 0.5 * (pair.stiffness[side] + of_other);
     }
   for (const Pair& pair : pairs_) {
     if (!can_press(pair, way)) continue;
-    for (const LocalIndex cell : {pair.first, pair.second})
+    for (const auto& [cell, other] :
+         {std::pair(pair.first, pair.second), {pair.second, pair.first}})
       if (cell < cells())
-        pressed[std::size_t(cell)] = std::max(pressed[std::size_t(cell)], expected);
+        pressed[std::size_t(cell)] =
+            std::max(pressed[std::size_t(cell)], 0.5 * (1 + over_own(cell, other)) * expected);
   }
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (is_rigid(LocalIndex(c))) continue;

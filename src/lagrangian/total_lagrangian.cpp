@@ -15,7 +15,7 @@ namespace {
 
 /// Way that nodes may have before pairs of cells are looked for again, in locations, at least; and
 /// in the way of the fastest node from one check to the next.
-constexpr double least_way = 0.25, checks_ahead = 3;
+constexpr double least_way = 0.25, checks_ahead = 4;
 
 }  // namespace
 
@@ -31,11 +31,18 @@ TotalLagrangian<Dim>::TotalLagrangian(Decomposition<Dim> decomposition, Setup se
   add_masses();
   add_loads_on_particles();
   if (setup_.slots.loads.act_on_particles()) halo_->sum(std::array{fields_->load_force_column()});
+  for (LocalIndex node = 0; node < nodes_->size(); ++node)
+    largest_speed_ =
+        std::max(largest_speed_, Eigen::Map<const Vec<Dim>>(fields_->updated_of(node)).norm());
+  fastest_ = largest_over_ranks(decomposition_.comm(), largest_speed_);
   if (contact_) {
-    contact_->find_pairs(*nodes_, 2 * least_way * setup_.location_size.minCoeff());
+    contact_->find_pairs(*nodes_, skin_of_pairs());
     contact_->measure(*nodes_);
   }
+  checked_ = -1;  // what touches at rest, or will soon, sets the first step
   check();
+  given_.take();              // masses of the start are what the run begins with
+  agreed_.largest_speed = 0;  // who chooses the first step knows that of the start
 }
 
 template <int Dim>
@@ -119,8 +126,7 @@ void TotalLagrangian<Dim>::check()
     cells_[b].find_least_stretches(*nodes_, least_stretches_[b]);
   if (contact_) {
     // Both sides may come as fast as the fastest node of the last check, which all ranks know.
-    const double nearer = 2 * steps_between_checks * last_step_ * agreed_.largest_speed;
-    contact_->count_stiffness(least_stretches_, nearer);
+    contact_->count_stiffness(least_stretches_, 2 * way_to_next_check());
   }
   const std::vector<double> failed = remove_failed();
   for (std::size_t b = 0; b < cells_.size(); ++b) {
@@ -154,7 +160,7 @@ void TotalLagrangian<Dim>::check()
   std::array<double, 2> mean{work, particles};
   sum_over_ranks(comm, mean);
   for (double& value : mean) value /= decomposition_.ranks();
-  agreed_.largest_speed = largest[0];
+  agreed_.largest_speed = fastest_ = largest[0];
   agreed_.wave_speed = largest[1];
   agreed_.busiest_work = largest[2];
   agreed_.mean_work = mean[0];
@@ -235,14 +241,29 @@ void TotalLagrangian<Dim>::scale_masses()
   }
 }
 
-/// Pairs stay until a node may have gone half the skin before the next check.
+/// Of the fastest node of the last check, in the longest steps: the next ones may be that long
+/// however short the last one was.
+template <int Dim>
+double TotalLagrangian<Dim>::way_to_next_check() const
+{
+  return steps_between_checks * std::max(setup_.longest_step, last_step_) * fastest_;
+}
+
+template <int Dim>
+double TotalLagrangian<Dim>::skin_of_pairs() const
+{
+  return 2 *
+         std::max(least_way * setup_.location_size.minCoeff(), checks_ahead * way_to_next_check());
+}
+
+/// Pairs stay if at the next check all will be among them that may meet before the one after it:
+/// nodes go one way until then, as far again on either side while that check looks ahead, and half
+/// a way more where they get faster.
 template <int Dim>
 void TotalLagrangian<Dim>::look_for_pairs(double way)
 {
-  const double to_next_check = steps_between_checks * last_step_ * agreed_.largest_speed;
-  if (way + 1.5 * to_next_check < 0.5 * contact_->skin()) return;
-  contact_->find_pairs(*nodes_, 2 * std::max(least_way * setup_.location_size.minCoeff(),
-                                             checks_ahead * to_next_check));
+  if (way + 2.5 * way_to_next_check() < 0.5 * contact_->skin()) return;
+  contact_->find_pairs(*nodes_, skin_of_pairs());
   contact_->measure(*nodes_);
   contact_->forget_stiffness();
 }

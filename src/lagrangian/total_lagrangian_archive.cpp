@@ -17,6 +17,7 @@ void TotalLagrangian<Dim>::archive(Archive& archive)
   archive.value("checked", checked_);
   archive.value("last_step", last_step_);
   archive.value("largest_speed", largest_speed_, Over::largest);
+  archive.value("fastest", fastest_);
   archive.value("friction_work", friction_work_, Over::sum);
   {
     const Archive::Section section(archive, "agreed");

@@ -226,10 +226,10 @@ class Hencky final : public Law<2> {
     const double of_mean =
         plane_strain ? 6 * mu_ : elastic_.youngs_modulus / (2 * (1 - elastic_.poisson_ratio));
     const auto& [sum, xx, xy, squared] = e.plane;
-    BentStress t{of_mean * (plane_strain ? e.mean_deviator() : sum),
-                 of_difference * (fibres.cosine * xx + fibres.sine * xy),
-                 of_difference * (fibres.cosine * xy - fibres.sine * xx),
-                 bent_flow_.bending(bending)};
+    BentStress t =
+        bent_flow_.stress(of_mean * (plane_strain ? e.mean_deviator() : sum),
+                          of_difference * (fibres.cosine * xx + fibres.sine * xy),
+                          of_difference * (fibres.cosine * xy - fibres.sine * xx), bending);
     const Lanes before = t.bending;
     const BentReturn flow = bent_flow_(t, at(s, plastic_strain));
     BentFlow::take(before, t.bending, bending);

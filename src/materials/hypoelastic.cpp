@@ -271,8 +271,8 @@ class Hypoelastic final : public Law<2> {
     const Lanes p = plane_strain ? (t.xx + t.yy + zz) / 3.0 : Lanes(0.0);
     const double of_mean = plane_strain ? 3 : 1, of_difference = std::sqrt(0.75),
                  of_shear = std::sqrt(3.0);
-    BentStress stress{of_mean * (0.5 * (t.xx + t.yy) - p), of_difference * (t.xx - t.yy),
-                      of_shear * t.xy, bent_flow_.bending(bending)};
+    BentStress stress = bent_flow_.stress(of_mean * (0.5 * (t.xx + t.yy) - p),
+                                          of_difference * (t.xx - t.yy), of_shear * t.xy, bending);
     const Lanes before = stress.bending;
     const BentReturn flow = bent_flow_(stress, at(s, plastic_strain));
     BentFlow::take(before, stress.bending, bending);

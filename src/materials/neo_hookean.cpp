@@ -81,8 +81,9 @@ class NeoHookeanPlane final : public Law<2> {
   {
     return {Vec<2>::Constant(elastic_.bending_modulus(Plane))};
   }
-  /// Along the largest stretch: rho_0 c^2 = d tau / d ln(stretch) - tau. In plane stress the
-  /// thickness gives way: d ln J / d ln(stretch) = 2 mu b_zz / (2 mu b_zz + lambda).
+  /// Along the largest stretch: rho_0 c^2 = d tau / d ln(stretch) - tau, and that of a transverse
+  /// wave, mu b_max, where it is the faster one. In plane stress the thickness gives way:
+  /// d ln J / d ln(stretch) = 2 mu b_zz / (2 mu b_zz + lambda).
   Lanes fastest_wave_squared(const double* s) const override
   {
     const Thickness z(*this, s);
@@ -91,7 +92,7 @@ class NeoHookeanPlane final : public Law<2> {
     Lanes share = 1.0;
     if constexpr (Plane == PlaneAssumption::stress)
       share = 2.0 * mu_ * z.b / (2.0 * mu_ * z.b + lambda_);
-    return (lambda_ * (share - z.log_j) + mu_ * (1.0 + largest)) / density_;
+    return (stdx::max(lambda_ * (share - z.log_j) + mu_, Lanes(0.0)) + mu_ * largest) / density_;
   }
 
  private:
@@ -187,13 +188,13 @@ class NeoHookeanSolid final : public Law<3> {
 
   double wave_speed() const override { return std::sqrt((lambda_ + 2 * mu_) / density_); }
   BendingModuli<3> bending_moduli() const override { return bending_; }
-  /// Along the largest stretch: rho_0 c^2 = lambda (1 - ln J) + mu (1 + b_max), b_max bounded by
-  /// mean and deviator.
+  /// Along the largest stretch: rho_0 c^2 = lambda (1 - ln J) + mu (1 + b_max), or mu b_max of a
+  /// transverse wave, b_max bounded by mean and deviator.
   Lanes fastest_wave_squared(const double* s) const override
   {
     const Symmetric b = b_of(s);
     const Lanes largest = b.mean() + stdx::sqrt(2.0 / 3.0 * b.deviator().squared());
-    return (lambda_ * (1.0 - log_j(s)) + mu_ * (1.0 + largest)) / density_;
+    return (stdx::max(lambda_ * (1.0 - log_j(s)) + mu_, Lanes(0.0)) + mu_ * largest) / density_;
   }
 
  private:
@@ -222,10 +223,14 @@ class NeoHookeanSolid final : public Law<3> {
 
 LawRow neo_hookean_law()
 {
+  // With less it has no answer where it is pressed to half and beyond: no thickness that is free of
+  // stress, and in plane strain a pressure that falls.
+  KindParameter poisson_ratio = poisson_ratio_parameter();
+  poisson_ratio.bound = from_below(0, 0.5);
   return {
       .keyword = "neo_hookean",
       .help = "rubber-like elastic, for large strains",
-      .parameters = {density_parameter(), youngs_modulus_parameter(), poisson_ratio_parameter()},
+      .parameters = {density_parameter(), youngs_modulus_parameter(), poisson_ratio},
       .in_plane = [](const ParameterValues& v, PlaneAssumption plane) -> std::unique_ptr<Law<2>> {
         const IsotropicConstants elastic = isotropic_constants(v);
         const double density = v.number("density");

@@ -32,7 +32,7 @@ template <int Dim>
 std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
                                                    const Layout<Dim>& layout,
                                                    const Decomposition<Dim>& decomposition,
-                                                   Model<Dim> model)
+                                                   Model<Dim>&& model)
 {
   if (is_total_lagrangian(scene.numerics)) {
     std::vector<std::string> names;
@@ -40,11 +40,12 @@ std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
     for (const RigidCells<Dim>& rigid : model.rigid) names.push_back(rigid.name);
     std::vector<FailureLimits> failure = failure_limits(scene, model.bodies);
     return std::make_unique<TotalLagrangian<Dim>>(
-        decomposition, typename TotalLagrangian<Dim>::Setup{
-                           std::move(model.bodies), std::move(model.slots), layout.location_size,
-                           scene.numerics.thickness, contact_stiffness(scene.numerics),
-                           pairs_of_bodies(scene, names), mass_scaling_of(scene),
-                           std::move(model.offsets), std::move(model.rigid), std::move(failure)});
+        decomposition,
+        typename TotalLagrangian<Dim>::Setup{
+            std::move(model.bodies), std::move(model.slots), layout.location_size,
+            scene.numerics.thickness, contact_stiffness(scene.numerics),
+            pairs_of_bodies(scene, names), mass_scaling_of(scene), std::move(model.offsets),
+            std::move(model.rigid), std::move(failure), time_step_of(layout).first()});
   }
   typename UpdatedLagrangian<Dim>::Setup setup;
   setup.transfer = make_transfer<Dim>(scene.numerics, layout.per_cell);
@@ -57,8 +58,8 @@ std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
 }
 
 template std::unique_ptr<Formulation<2>> make_formulation(const scene::Scene&, const Layout<2>&,
-                                                          const Decomposition<2>&, Model<2>);
+                                                          const Decomposition<2>&, Model<2>&&);
 template std::unique_ptr<Formulation<3>> make_formulation(const scene::Scene&, const Layout<3>&,
-                                                          const Decomposition<3>&, Model<3>);
+                                                          const Decomposition<3>&, Model<3>&&);
 
 }  // namespace mpm

@@ -2,7 +2,7 @@
 import math
 import unittest
 
-from program import History, ProgramTest, summary
+from program import History, ProgramTest, mpm_par, summary
 
 CONFINED = 50e9 * 0.7 / (1.3 * 0.4)
 GRAVITY, ANGLE, MASS = 9.81, math.radians(30), 250
@@ -68,6 +68,33 @@ class Contact(ProgramTest):
         self.assertLess(max(history["momentum_error"]), 1e-11)
         # Two faces of 0.5 mm, overlapped by less than 6 % of a location of 25 um.
         self.assertLess(max(history["overlapped_area"]), 0.06 * 25e-6 * 0.5e-3 * 2)
+
+    def test_bodies_that_touch_at_the_start_part_with_the_energy_they_had(self):
+        """Flush boxes of one material and of two, each at 1 % of the softer one's wave speed."""
+        speed = 0.01 * math.sqrt(CONFINED / 5 / 1500)
+        for ratio in 1, 5.2, 30:
+            for scaled in (0, 0.8):
+                file = self.folder / f"flush_{ratio}_{scaled}.yaml"
+                file.write_text(f"""
+materials:
+  - {{name: left, law: isotropic, density: 1500 kg/m^3, youngs_modulus: 10 GPa, poisson_ratio: 0.3}}
+  - {{name: right, law: isotropic, density: {1500 * ratio} kg/m^3, youngs_modulus: {10 * ratio} GPa, poisson_ratio: 0.3}}
+specimen:
+  size: [3 mm, 0.4 mm]
+  shapes:
+    - {{box: {{lower: [0 mm, 0 mm], upper: [1.5 mm, 0.4 mm]}}, material: left, velocity: [{speed} m/s, 0 m/s]}}
+    - {{box: {{lower: [1.5 mm, 0 mm], upper: [3 mm, 0.4 mm]}}, material: right, velocity: [-{speed} m/s, 0 m/s]}}
+grid: {{cells: [30, 4], margin: 1 mm}}
+contact: [{{between: [left, right]}}]
+numerics: {{formulation: total_lagrangian, mass_scaling: {scaled}}}
+free_motion: {{end_time: 2 us}}
+output: {{snapshots: 0, history_lines: 100}}
+""")
+                run = mpm_par(file, "--output", self.folder / file.stem)
+                self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
+                history = History(self.folder / file.stem)
+                self.assertGreater(max(history["contact_energy"]), 0)
+                self.assertLess(max(map(abs, history["energy_error"])), 0.05, file.stem)
 
     def slide(self, friction, bound, *settings, where="contact[0]"):
         history = History(self.results("incline", *settings, f"{where}.friction={friction}",

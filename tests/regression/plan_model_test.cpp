@@ -76,6 +76,17 @@ TEST(Plan, NamesTheMethodWithWhatTheSceneMadeOfIt)
               ElementsAre("quadratic B-spline", "XPIC(3)", "MUSL", "plane strain"));
 }
 
+TEST(MakeFormulation, LeavesTheApparatusToTheOneWhoMeasures)
+{
+  Started started(
+      block("grid: {cells: [10, 5]}\nloading: {piston: right, speed: 1 m/s, strain: 10 %}\n"));
+  const std::vector<const RigidWall<2>*> at_rest = started.model.apparatus->at_rest;
+  ASSERT_EQ(at_rest.size(), 3u);  // fixed edge and both lateral sides
+  const auto formulation = make_formulation(started.scene, started.preparation.layout,
+                                            started.decomposition, std::move(started.model));
+  EXPECT_EQ(started.model.apparatus->at_rest, at_rest);
+}
+
 TEST(EmptyRegions, HaveNodesThatAStepNeitherReadsNorWrites)
 {
   Started started(

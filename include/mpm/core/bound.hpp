@@ -41,6 +41,11 @@ constexpr Bound between(double lower, double upper)
 {
   return {End{lower, false}, End{upper, false}};
 }
+/// The lower end included, the upper one not.
+constexpr Bound from_below(double lower, double upper)
+{
+  return {End{lower, true}, End{upper, false}};
+}
 /// Both ends included.
 constexpr Bound from_to(double lower, double upper)
 {

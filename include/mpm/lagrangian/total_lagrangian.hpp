@@ -40,6 +40,8 @@ class TotalLagrangian final : public Formulation<Dim> {
     CornerOffsets<Dim> offsets{};
     std::vector<RigidCells<Dim>> rigid{};  ///< the same ones on every rank
     std::vector<FailureLimits> failure{};  ///< of each body; empty: no cell fails
+    /// s, of all steps that will be asked for: contact looks ahead as far as nodes may go in it.
+    double longest_step = 0;
   };
 
   TotalLagrangian(Decomposition<Dim> decomposition, Setup setup);
@@ -94,6 +96,8 @@ class TotalLagrangian final : public Formulation<Dim> {
   void book_friction(double dt);
   void lead_rigid_bodies(double dt);
   void add_loads_on_particles();
+  double way_to_next_check() const;
+  double skin_of_pairs() const;
   void look_for_pairs(double way);
   void scale_masses();
   bool cells_may_fail() const { return !setup_.failure.empty(); }
@@ -155,6 +159,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   Agreed agreed_;
   GlobalIndex checked_ = 0;
   double largest_speed_ = 0;  ///< m/s, of a node since the last check
+  double fastest_ = 0;        ///< the same of all ranks up to then, or at the start
   std::optional<Loss<Dim>> loss_;
 };
 

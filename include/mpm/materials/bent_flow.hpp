@@ -9,7 +9,8 @@
 /// along the fibres. Beside a stress p that strains fibres along themselves not at all it leaves
 /// m^2 + p^2 = 1, as if that were the same in all of them: up to 6.5 % less than they could bear.
 /// Flow is normal to it: walls of two cells, or four, stop at the plastic moment as those of one
-/// do.
+/// do. Where fibres along both axes of a cell bear moments m_1 and m_2, g^2 is the mean of that
+/// along either, weighted with m_1^2 and m_2^2.
 /// A cell whose fibres all yield along themselves would then bend at no cost, and rounding would
 /// grow: where moments vanish the surface is rounded, with
 ///   sqrt((s^2 / 2 + e)^2 + g^2 s^2) - e,  e = rounded_vertex s_Y^2
@@ -47,6 +48,8 @@ struct BentStress {
   Lanes along;    ///< sqrt(3/4) times their difference, seen from the fibres
   Lanes shear;    ///< sqrt(3) times
   Lanes bending;  ///< s
+  /// Of the moments, which do not change their ratio: (m_1^2 - m_2^2) / (m_1^2 + m_2^2).
+  Lanes lean = 1.0;
 };
 
 class BentFlow {
@@ -65,12 +68,15 @@ class BentFlow {
   {
   }
 
-  /// Von Mises stress of fibres, from the columns of bending.hpp. Those of the plane are held along
-  /// z in plane strain: their plastic moment is 2 / sqrt(3) times that of uniaxial stress.
-  Lanes bending(const double* columns) const
+  /// `bending` is the von Mises stress of fibres, from the columns of bending.hpp. Those of the
+  /// plane are held along z in plane strain: their plastic moment is 2 / sqrt(3) times that of
+  /// uniaxial stress.
+  BentStress stress(const Lanes& mean, const Lanes& along, const Lanes& shear,
+                    const double* columns) const
   {
-    const Lanes x = load(columns), y = load(columns + lane_count);
-    return of_fibres_ * stdx::sqrt(x * x + y * y);
+    const Lanes x = load(columns), y = load(columns + lane_count), squared = x * x + y * y;
+    return {mean, along, shear, of_fibres_ * stdx::sqrt(squared),
+            (x * x - y * y) / stdx::max(squared, Lanes(least * least))};
   }
 
   /// From the trial stress t to the yield surface. `plastic_strain`: before the step.
@@ -81,25 +87,25 @@ class BentFlow {
 
   // For cut_back, and as fast as if they were written there:
   struct Found {
-    Lanes squared;        ///< Q
-    Lanes g, half, root;  ///< half of s^2, rounded; the root in Q
+    Lanes squared;                ///< Q
+    Lanes g_squared, half, root;  ///< half of s^2, rounded; the root in Q
   };
   [[gnu::always_inline]] Found at(const BentStress& t, const Lanes& rounded) const
   {
-    const Lanes g = along_mean_ * t.mean + along_difference_ * t.along;
+    const Lanes gg = t.mean * slope_by_mean(t) + t.along * slope_by_along(t);
     const Lanes s = t.bending, half = 0.5 * s * s + rounded;
-    const Lanes root = stdx::sqrt(half * half + g * g * s * s);
+    const Lanes root = stdx::sqrt(half * half + gg * s * s);
     return {
-        t.mean * t.mean + t.along * t.along + t.shear * t.shear + 0.5 * s * s + (root - rounded), g,
-        half, root};
+        t.mean * t.mean + t.along * t.along + t.shear * t.shear + 0.5 * s * s + (root - rounded),
+        gg, half, root};
   }
   [[gnu::always_inline]] BentStress normal(const BentStress& t, const Found& found,
                                            const Lanes& over) const
   {
-    const Lanes of_root = 0.5 / found.root, g = found.g;
-    const Lanes more = g * t.bending * t.bending * of_root;
-    return {(t.mean + along_mean_ * more) * over, (t.along + along_difference_ * more) * over,
-            t.shear * over, t.bending * (0.5 + (found.half + g * g) * of_root) * over};
+    const Lanes of_root = 0.5 / found.root;
+    const Lanes more = t.bending * t.bending * of_root;
+    return {(t.mean + slope_by_mean(t) * more) * over, (t.along + slope_by_along(t) * more) * over,
+            t.shear * over, t.bending * (0.5 + (found.half + found.g_squared) * of_root) * over};
   }
   [[gnu::always_inline]] Lanes stiffness(const BentStress& n) const
   {
@@ -134,6 +140,16 @@ class BentFlow {
 
  private:
   static constexpr double least = 1e-30;  ///< Pa, against division by zero
+
+  /// Halves of the derivatives of g^2.
+  Lanes slope_by_mean(const BentStress& t) const
+  {
+    return along_mean_ * (along_mean_ * t.mean + along_difference_ * t.lean * t.along);
+  }
+  Lanes slope_by_along(const BentStress& t) const
+  {
+    return along_difference_ * (along_mean_ * t.lean * t.mean + along_difference_ * t.along);
+  }
 
   double of_fibres_;                      ///< of the von Mises stress in that along fibres
   double along_mean_, along_difference_;  ///< g

@@ -46,12 +46,12 @@ template <int Dim>
 Model<Dim> make_model(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
                       const Layout<Dim>& layout, const Decomposition<Dim>& decomposition);
 
-/// What steps the model, which it takes up. Collective.
+/// What steps the model, of which it takes all but the apparatus. Collective.
 template <int Dim>
 std::unique_ptr<Formulation<Dim>> make_formulation(const scene::Scene& scene,
                                                    const Layout<Dim>& layout,
                                                    const Decomposition<Dim>& decomposition,
-                                                   Model<Dim> model);
+                                                   Model<Dim>&& model);
 
 template <int Dim>
 Loads<Dim> loads_of(const scene::Scene& scene);

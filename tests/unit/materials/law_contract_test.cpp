@@ -224,6 +224,21 @@ TEST_P(LawContract, TheFastestWaveOfStretchedStatesIsNotBelowThatOfTheAcousticTe
   });
 }
 
+/// Rubber that is drawn along all axes, where the fastest wave is a transverse one.
+TEST_P(LawContract, TheFastestWaveOfStatesDrawnFarIsNotBelowThatOfTheAcousticTensor)
+{
+  GetParam().in_its_dimension([&]<int Dim>() {
+    for (const double logarithm : {0.6, 1.2, 1.8}) {
+      MaterialPoint<Dim> point(GetParam().make<Dim>());
+      Matrix<Dim> drawn = std::exp(logarithm) * Matrix<Dim>::Identity();
+      drawn(0, 0) *= 1.1;
+      point.go_to(drawn, 400);
+      const double found = std::sqrt(differenced_wave_squared(point, GetParam().density()));
+      EXPECT_GE(point.fastest_wave(), found * (1 - 1e-3)) << logarithm;
+    }
+  });
+}
+
 TEST_P(LawContract, PaddingGivesNoForceAndNoEnergyAndEveryLaneIsAParticleOfItsOwn)
 {
   GetParam().in_its_dimension([&]<int Dim>() {
