@@ -44,11 +44,14 @@ template <int Dim>
 void leave_preview(const Preparation<Dim>& preparation, const std::filesystem::path& file)
 {
   on_rank_zero(preparation.comm, [&] {
-    const auto& read = preparation.scene.specimen.micrograph;
+    std::vector<std::filesystem::path> read;
+    if (const auto& micrograph = preparation.scene.specimen.micrograph)
+      read = micrograph::files_of_image(micrograph->file);
     std::error_code none;
-    if (read && std::filesystem::equivalent(read->file, file, none))
-      throw InputError(fmt::format(
-          "--preview {} is the micrograph of the scene. Name another file.", file.string()));
+    for (const std::filesystem::path& picture : read)
+      if (std::filesystem::equivalent(picture, file, none))
+        throw InputError(fmt::format(
+            "--preview {} is the micrograph of the scene. Name another file.", file.string()));
     micrograph::write_preview(preparation.specimen, file);
   });
 }

@@ -124,6 +124,13 @@ void check_suitable(TIFF* file, int pages)
         "is an ImageJ stack of {} slices in {} pages. Save what is to be modelled as an "
         "image sequence, or as a stack of less than 4 GB.",
         slices, pages));
+  for (const char* other : {"channels", "frames"})
+    if (const std::string_view count = imagej_entry(description(file), other);
+        !count.empty() && count != "1")
+      throw InputError(fmt::format(
+          "is an ImageJ hyperstack of {} {}, whose pages are not all slices. Save one of them as a "
+          "stack (Image > Hyperstacks > Make Subset).",
+          count, other));
   const int orientation = tag<std::uint16_t>(file, TIFFTAG_ORIENTATION);
   if (orientation != ORIENTATION_TOPLEFT)
     throw InputError(fmt::format(

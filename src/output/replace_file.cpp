@@ -39,8 +39,10 @@ class Descriptor {
   }
   void reserve(std::int64_t bytes) const
   {
-    if (::fallocate(number_, 0, 0, bytes) != 0 && errno != EOPNOTSUPP && errno != ENOSYS)
-      fail("reserve room for");
+    int status = 0;
+    do status = ::fallocate(number_, 0, 0, bytes);
+    while (status != 0 && errno == EINTR);  // a signal came, of which the run will hear
+    if (status != 0 && errno != EOPNOTSUPP && errno != ENOSYS) fail("reserve room for");
   }
   void sync() const
   {

@@ -49,8 +49,8 @@ std::vector<std::filesystem::path> files_ending(const std::filesystem::path& fol
 
 }  // namespace
 
-void ResultsFolder::start_anew(std::span<const std::filesystem::path> inputs,
-                               const std::string& effective_scene, bool overwrite)
+void ResultsFolder::expect_no_input(std::span<const std::filesystem::path> inputs,
+                                    const std::string& effective_scene) const
 {
   for (const std::filesystem::path& input : inputs)
     for (const char* name : files_of_a_run) {
@@ -63,15 +63,36 @@ void ResultsFolder::start_anew(std::span<const std::filesystem::path> inputs,
             "--output.",
             place.string(), name));
     }
+}
+
+void ResultsFolder::expect_no_run() const
+{
+  if (!holds_a_run()) return;
+  std::optional<output::FolderLock> free;
+  if (!lock_) free.emplace(folder_);  // if a run is writing there, that is what to say
+  throw InputError(fmt::format(
+      "{}: holds the results of a run. Replace them with --overwrite, go on with that run with "
+      "--restart, or choose another folder with --output.",
+      folder_.string()));
+}
+
+void ResultsFolder::expect_same_run(const std::filesystem::path& checkpoint) const
+{
+  std::error_code none;
+  if (holds_a_run() &&
+      !std::filesystem::equivalent(std::filesystem::absolute(checkpoint).parent_path(),
+                                   folder_ / "checkpoints", none))
+    throw InputError(fmt::format(
+        "{}: holds the results of a run, and {} is not among its checkpoints. Choose another "
+        "folder with --output.",
+        folder_.string(), checkpoint.string()));
+}
+
+void ResultsFolder::start_anew(bool overwrite)
+{
   occupy();
-  if (holds_a_run()) {
-    if (!overwrite)
-      throw InputError(fmt::format(
-          "{}: holds the results of a run. Replace them with --overwrite, go on with that run with "
-          "--restart, or choose another folder with --output.",
-          folder_.string()));
-    clear();
-  }
+  if (!overwrite) expect_no_run();
+  if (holds_a_run()) clear();
 }
 
 void ResultsFolder::go_on()
@@ -79,6 +100,8 @@ void ResultsFolder::go_on()
   occupy();
   remove(folder_ / "summary.json");
   clear_report();
+  // Of whatever name the run had: the state that they name is taken away.
+  for (const std::filesystem::path& list : files_ending(folder_ / "failure", ".xdmf")) remove(list);
 }
 
 void ResultsFolder::occupy()

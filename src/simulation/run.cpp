@@ -92,9 +92,16 @@ class Run {
   /// Up to now, without what observers took.
   void count_step_seconds()
   {
-    result_.step_seconds += seconds_since(counted_) - (result_.observer_seconds - observed_);
+    const double seconds = seconds_since(counted_) - (result_.observer_seconds - observed_);
+    result_.step_seconds += seconds;
+    result_.core_seconds += seconds * ranks_of(comm_);
     counted_ = Clock::now();
     observed_ = result_.observer_seconds;
+  }
+  void count_wall_seconds()
+  {
+    result_.wall_seconds += seconds_since(wall_counted_);
+    wall_counted_ = Clock::now();
   }
 
   /// To the end, or until a NumericalError, which every rank meets at the same place.
@@ -107,7 +114,7 @@ class Run {
     std::size_t next_line = line_after(stepper_->time());
     double dt = step_share_ * time_step_.next(*stepper_);
     while (!finished_at(stepper_->time(), stepper_->steps())) {
-      if (stepper_->steps() % Formulation<Dim>::steps_between_checks == 0)
+      if (stepper_->steps() == 1 || stepper_->steps() % Formulation<Dim>::steps_between_checks == 0)
         dt = step_share_ * time_step_.next(*stepper_);
       const double last = std::min(dt, layout_.end_time - stepper_->time());
       const double after = stepper_->time() + last;
@@ -131,7 +138,8 @@ class Run {
   void begin()
   {
     look();
-    record(time_step_.first());
+    result_.first_time_step = time_step_.next(*stepper_);
+    record(result_.first_time_step);
     keep();
   }
 
@@ -168,8 +176,11 @@ class Run {
     {
       const Archive::Section section(archive, "run");
       archive.value("step_share", step_share_);
+      archive.value("first_time_step", result_.first_time_step);
       archive.value("repeated_steps", result_.repeated_steps);
       archive.value("step_seconds", result_.step_seconds, Over::largest);
+      archive.value("core_seconds", result_.core_seconds, Over::largest);
+      archive.value("wall_seconds", result_.wall_seconds, Over::largest);
       archive.value("observer_seconds", result_.observer_seconds, Over::largest);
       archive_goings_back(archive, result_.goings_back);
     }
@@ -209,6 +220,7 @@ class Run {
   void save()
   {
     count_step_seconds();
+    count_wall_seconds();
     const auto start = Clock::now();
     MemoryArchive state;
     state.start_saving();
@@ -291,7 +303,6 @@ class Run {
     result_.lines = history_.lines();
     result_.steps = stepper_->steps();
     result_.end_time = stepper_->time();
-    result_.first_time_step = time_step_.first();
     result_.largest_rank_bytes = GlobalIndex(largest_over_ranks(comm_, double(stepper_->bytes())));
     result_.active_nodes = stepper_->active_nodes();
     sum_over_ranks(comm_, std::span(&result_.active_nodes, 1));
@@ -300,9 +311,9 @@ class Run {
       result_.largest_energy_error =
           std::max(result_.largest_energy_error, judged_energy_error(line, bool(model_.apparatus)));
     result_.warnings = warnings_of_result(scene_, layout_.wave_speed, result_);
-    result_.cooperation = cooperation_of(*stepper_, balance_, result_.particles);
+    result_.cooperation = cooperation_of(*stepper_, balance_);
     if (model_.apparatus) result_.properties = properties();
-    result_.wall_seconds = seconds_since(start_);
+    count_wall_seconds();
   }
 
   analysis::CompressionProperties properties() const
@@ -340,8 +351,9 @@ class Run {
   bool keeps_;
   KeptState<Dim> kept_;
   double step_share_ = 1;
-  Clock::time_point counted_;  ///< up to when the seconds of steps are
-  double observed_ = 0;        ///< s, of observers until then
+  Clock::time_point counted_;                ///< up to when the seconds of steps are
+  double observed_ = 0;                      ///< s, of observers until then
+  Clock::time_point wall_counted_ = start_;  ///< up to when those of all are
   RunResult result_;
 };
 

@@ -17,6 +17,7 @@
 #include <mpm/simulation/snapshots.hpp>
 
 #include <array>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -63,8 +64,8 @@ class HistoryWriter final : public Observer<Dim> {
   std::optional<output::HistoryFile> file_;
 };
 
-/// What a run says of itself before its first line. A folder in which one goes on stays as it was
-/// left until its state has been taken up.
+/// What a run says of itself before its first line. The folder stays as it was left until the run
+/// is there that goes on, or that takes the place of another one.
 template <int Dim>
 class FolderWriter final : public Observer<Dim> {
  public:
@@ -80,7 +81,10 @@ class FolderWriter final : public Observer<Dim> {
   {
     on_rank_zero(preparation_.comm, [&] {
       const std::filesystem::path& folder = request_.results;
-      if (request_.restart) results_.go_on();
+      if (request_.restart)
+        results_.go_on();
+      else
+        results_.start_anew(request_.overwrite);
       output::replace_file(folder / "scene.yaml", effective_scene_);
       micrograph::write_preview(preparation_.specimen, folder / "specimen.png");
     });
@@ -148,11 +152,11 @@ std::string effective_scene_text(const scene::Scene& effective)
 /// A line of YAML each.
 std::string checksums_of(std::span<const std::filesystem::path> files)
 {
-  std::string lines;
+  std::ostringstream lines;
   for (const std::filesystem::path& file : files)
-    lines += fmt::format("\"checksum of {}\": {}\n", file.filename().string(),
-                         output::checksum_of(file));
-  return lines;
+    lines << std::quoted("checksum of " + file.filename().string()) << ": "
+          << output::checksum_of(file) << '\n';
+  return lines.str();
 }
 
 /// The state to go on from, and what is wrong with newer ones.
@@ -182,22 +186,23 @@ std::unique_ptr<Archive> take_up(const Preparation<Dim>& preparation, const RunR
   return std::move(loaded.state);
 }
 
-/// Nothing in the folder is of another run.
+/// What the run goes on from, if it does, and that the folder is free for it.
 template <int Dim>
 Continuation begin_in_folder(const Preparation<Dim>& preparation, const RunRequest& request,
-                             ResultsFolder& results, const std::string& effective_scene)
+                             const ResultsFolder& results, const std::string& effective_scene)
 {
   Continuation continuation{.results = request.results, .time_limit = request.time_limit};
   agree(preparation.comm,
         [&] { continuation.record = effective_scene + checksums_of(request.pictures); });
-  if (request.restart)
-    continuation.state = take_up(preparation, request, continuation.record);
-  else
-    on_rank_zero(preparation.comm, [&] {
-      std::vector<std::filesystem::path> inputs = request.pictures;
-      inputs.push_back(request.scene);
-      results.start_anew(inputs, effective_scene, request.overwrite);
-    });
+  on_rank_zero(preparation.comm, [&] {
+    if (request.checkpoint) results.expect_same_run(*request.checkpoint);
+    if (request.restart) return;
+    std::vector<std::filesystem::path> inputs = request.pictures;
+    inputs.push_back(request.scene);
+    results.expect_no_input(inputs, effective_scene);
+    if (!request.overwrite) results.expect_no_run();
+  });
+  if (request.restart) continuation.state = take_up(preparation, request, continuation.record);
   return continuation;
 }
 
@@ -230,9 +235,8 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const RunRequest& r
     fmt::print(
         "{} steps in {:.1f} s, {:.1f} ns per particle and step, energy error {:.2f} %\n"
         "results in {}\n",
-        result.steps, result.step_seconds + result.observer_seconds,
-        result.ns_per_particle_step(ranks_of(comm)), 100 * result.lines.back().energy_error,
-        folder.string());
+        result.steps, result.step_seconds + result.observer_seconds, result.ns_per_particle_step(),
+        100 * result.lines.back().energy_error, folder.string());
   });
   return result;
 }

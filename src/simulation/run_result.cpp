@@ -22,8 +22,7 @@ double judged_energy_error(const HistoryLine& line, bool under_a_piston)
 }
 
 template <int Dim>
-Cooperation cooperation_of(const Formulation<Dim>& formulation, const LoadBalance<Dim>& balance,
-                           GlobalIndex particles)
+Cooperation cooperation_of(const Formulation<Dim>& formulation, const LoadBalance<Dim>& balance)
 {
   const MPI_Comm comm = formulation.decomposition().comm();
   const Counters mine = formulation.counters();
@@ -31,8 +30,9 @@ Cooperation cooperation_of(const Formulation<Dim>& formulation, const LoadBalanc
   std::array<double, 4> largest{double(mine.messages) / steps, double(mine.bytes) / steps,
                                 mine.waiting_seconds, double(formulation.particles())};
   largest_over_ranks(comm, largest);
-  GlobalIndex migrated = mine.migrated;
-  sum_over_ranks(comm, std::span(&migrated, 1));
+  std::array<GlobalIndex, 2> sums{mine.migrated, formulation.particles()};
+  sum_over_ranks(comm, std::span(sums));
+  const auto [migrated, particles] = sums;
   const Ownership<Dim>& ownership = formulation.decomposition().ownership();
   std::string words = "metis";
   if (ownership.by_cuts()) {
@@ -46,7 +46,7 @@ Cooperation cooperation_of(const Formulation<Dim>& formulation, const LoadBalanc
           largest[0],
           largest[1],
           largest[2],
-          largest[3] * ranks_of(comm) / double(particles),
+          largest[3] * ranks_of(comm) / double(std::max<GlobalIndex>(particles, 1)),
           balance.mean_imbalance(),
           balance.mean_work_imbalance()};
 }
@@ -71,7 +71,7 @@ void archive_goings_back(Archive& archive, std::vector<GoingBack>& goings_back)
   }
 }
 
-template Cooperation cooperation_of(const Formulation<2>&, const LoadBalance<2>&, GlobalIndex);
-template Cooperation cooperation_of(const Formulation<3>&, const LoadBalance<3>&, GlobalIndex);
+template Cooperation cooperation_of(const Formulation<2>&, const LoadBalance<2>&);
+template Cooperation cooperation_of(const Formulation<3>&, const LoadBalance<3>&);
 
 }  // namespace mpm

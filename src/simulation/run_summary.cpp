@@ -96,7 +96,7 @@ void write_summary(const Preparation<Dim>& preparation, const RunResult& result,
   summary.set("wall_seconds", result.wall_seconds);
   summary.set("loop_seconds", result.step_seconds + result.observer_seconds);
   summary.set("output_seconds", result.observer_seconds);
-  summary.set("ns_per_particle_step", result.ns_per_particle_step(ranks));
+  summary.set("ns_per_particle_step", result.ns_per_particle_step());
   summary.set("largest_rank_bytes", result.largest_rank_bytes);
   summary.set("active_nodes", result.active_nodes);
   describe(result.cooperation, summary);

@@ -187,7 +187,7 @@ std::string check_speed(MPI_Comm comm, const std::filesystem::path& folder)
   const int per_rank = std::clamp(10'000 / ranks, 3, 100);
   const RunResult result =
       run_it(comm, scene_of(comm, folder / "speed.yaml", pressed_block({per_rank * ranks, up})));
-  const double ns = result.ns_per_particle_step(ranks);
+  const double ns = result.ns_per_particle_step();
   std::string text = fmt::format(
       "{:.1f} ns per particle and step of each rank, in lanes of {}; {} in docs/performance.md "
       "(AMD EPYC, one rank, lanes of 8)",

@@ -131,6 +131,15 @@ class Check(ProgramTest):
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertIn("is the micrograph of the scene. Name another file.", run.stderr)
         self.assertEqual(picture.read_bytes(), before)
+        for k in 1, 2:
+            (self.folder / f"slice_{k}.png").write_bytes(before)
+        text.write_text(text.read_text().replace("micrograph: wall.png, pixel_size: 10 um",
+                                                 "micrograph: slice_*.png, pixel_size: 10 um, depth: 20 um")
+                        .replace("[20, 10]", "[20, 10, 2]"))
+        run = mpm_par("--check", "--quiet", text, "--preview", "slice_2.png", folder=self.folder)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertIn("--preview slice_2.png is the micrograph of the scene", run.stderr)
+        self.assertEqual((self.folder / "slice_2.png").read_bytes(), before)
 
     def test_a_preview_that_cannot_be_written_is_said(self):
         run = mpm_par("--check", "--quiet", BLOCK, "--preview", self.folder / "none" / "a.png",

@@ -138,10 +138,24 @@ class Restart(RunsToRestart):
 
     def test_time_of_steps_counts_those_before_the_checkpoint(self):
         folder, settings = self.folder / "timed", [CELLS, "output.checkpoints={steps: 1400}"]
-        self.run_it(RING, folder, settings=[*settings, "steps=1450"])
+        self.run_it(RING, folder, settings=[*settings, "steps=1450"], ranks=3)
         before = summary(folder)["ns_per_particle_step"]
         self.run_it(RING, folder, "--restart", settings=[*settings, "steps=1460"])
-        self.assertGreater(summary(folder)["ns_per_particle_step"], 0.5 * before)
+        found = summary(folder)  # on one rank, after 1400 steps of three
+        self.assertGreater(found["ns_per_particle_step"], 0.5 * before)
+        self.assertGreater(found["wall_seconds"], found["loop_seconds"])
+
+    def test_names_of_pictures_with_quotes(self):
+        picture = self.folder / 'wood 2"x4" \\s.bmp'
+        shutil.copy(INPUTS / "wood" / "loblolly.bmp", picture)
+        file = self.folder / "wood.yaml"
+        text = CROP[0].read_text()
+        file.write_text(text.replace("loblolly.bmp", f"'{picture.name}'"))
+        settings = [word.replace("micrograph: loblolly.bmp", f"micrograph: '{picture.name}'")
+                    for word in CROP[1]]
+        of, folder = (file, settings), self.folder / "quoted"
+        self.run_it(of, folder, settings=["steps=40", "output.checkpoints={steps: 20}"])
+        self.run_it(of, folder, "--restart", settings=["steps=60"])
 
     def begun(self, settings=()):
         folder = self.folder / "begun"

@@ -74,6 +74,32 @@ class ResultsFolder(ProgramTest):
         self.assertEqual(set(all_of(folder)), set(all_of(fresh)) | mine)
         self.assertEqual((folder / "history.csv").read_bytes(), (fresh / "history.csv").read_bytes())
 
+    def test_overwrite_takes_nothing_away_for_a_run_that_does_not_begin(self):
+        self.good()
+        before = all_of(self.results_of_first)
+        nothing = ["loads=[{kind: traction, side: right, stress: [1 MPa, 0 Pa], "
+                   "within: {lower: [8 m, 8 m], upper: [9 m, 9 m]}}]"]
+        message = self.refused("--overwrite", settings=[*QUICK, *nothing])
+        self.assertIn("acts on nothing", message)
+        self.assertEqual(all_of(self.results_of_first), before)
+        fresh = self.folder / "fresh"
+        self.refused(output=fresh, settings=[*QUICK, *nothing])
+        self.assertFalse(fresh.exists())
+
+    def test_a_checkpoint_of_one_run_does_not_go_on_in_the_folder_of_another(self):
+        every = [*WHOLE, "output.checkpoints={steps: 20, keep: 9}"]
+        self.good(settings=every)
+        other = self.folder / "other"
+        self.good(output=other, settings=[*every, "name=other"])
+        before = all_of(other)
+        first = sorted(self.results_of_first.glob("checkpoints/*.h5"))[0]
+        self.assertIn("is not among its checkpoints. Choose another folder with --output.",
+                      self.refused("--restart", first, output=other, settings=[*every, "name=other"]))
+        self.assertEqual(all_of(other), before)
+        self.good("--restart", first, output=self.folder / "branch", settings=every)
+        self.assertEqual((self.folder / "branch" / "history.csv").read_bytes(),
+                         (self.results_of_first / "history.csv").read_bytes())
+
     def test_a_run_that_broke_off_leaves_no_summary_of_the_one_before(self):
         self.good()
         run = self.run_it("--overwrite", "--time-limit", "1 us", settings=[])

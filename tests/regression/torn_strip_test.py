@@ -23,6 +23,7 @@ class TornStrip(ProgramTest):
         self.assertEqual(found["failed_cells"], failed)
         self.assertAlmostEqual(found["failed_energy"] / history["failed_energy"][-1], 1, places=11)
         self.assertIn("cells have failed", " ".join(found["warnings"]))
+        self.assertGreaterEqual(found["imbalance"], 1, "of the cells that are left")
 
     def test_on_one_rank_as_on_three(self):
         one, three = (History(self.results("torn_strip", ranks=ranks, label=f"on_{ranks}"))

@@ -16,13 +16,20 @@ class ResultsFolder {
  public:
   explicit ResultsFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
+  /// Throws InputError if one of `inputs` stands where a result is to be written and is not the
+  /// effective scene itself.
+  void expect_no_input(std::span<const std::filesystem::path> inputs,
+                       const std::string& effective_scene) const;
+  /// Throws InputError if the folder holds the results of a run, or one is writing there.
+  void expect_no_run() const;
+  /// Throws InputError if the folder holds the results of a run, and the checkpoint is none of it.
+  void expect_same_run(const std::filesystem::path& checkpoint) const;
+
   /// Makes it if it is not there. What another run has left there is taken away if `overwrite`:
   /// history, summary, snapshots and their lists, checkpoints, the state at a failure, the report.
-  /// Throws InputError if it is not, if a run is writing there, or if one of `inputs` stands where
-  /// a result is to be written and is not the effective scene itself; FileError if something cannot
-  /// be made or taken away.
-  void start_anew(std::span<const std::filesystem::path> inputs, const std::string& effective_scene,
-                  bool overwrite);
+  /// Throws InputError if it is not, or if a run is writing there; FileError if something cannot be
+  /// made or taken away.
+  void start_anew(bool overwrite);
   /// Takes away what is true of a run only when it has ended. Throws InputError if a run is writing
   /// there.
   void go_on();

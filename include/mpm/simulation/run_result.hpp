@@ -40,8 +40,10 @@ struct RunResult {
   GlobalIndex particles = 0, steps = 0;
   double end_time = 0;         ///< s
   double first_time_step = 0;  ///< s
-  /// s: of the loop without its observers, of the observers, and of all from the preparation on.
+  /// s: of the loop without its observers, of the observers, and of all from the preparation on;
+  /// those before the checkpoints that a run went on from as well.
   double step_seconds = 0, observer_seconds = 0, wall_seconds = 0;
+  double core_seconds = 0;  ///< s, `step_seconds` of all ranks that were there
   GlobalIndex largest_rank_bytes = 0;
   GlobalIndex active_nodes = 0;      ///< at the end, of all ranks; shared ones count on each
   double deepest_behind_piston = 0;  ///< m
@@ -53,9 +55,9 @@ struct RunResult {
   std::vector<GoingBack> goings_back;
   GlobalIndex repeated_steps = 0;
 
-  double ns_per_particle_step(int ranks) const
+  double ns_per_particle_step() const
   {
-    return 1e9 * step_seconds * ranks / (double(particles) * double(steps + repeated_steps));
+    return 1e9 * core_seconds / (double(particles) * double(steps + repeated_steps));
   }
 };
 
@@ -63,10 +65,9 @@ struct RunResult {
 /// done is too little to judge by.
 double judged_energy_error(const HistoryLine& line, bool under_a_piston);
 
-/// Of a run of so many particles, up to now. Collective.
+/// Up to now. Collective.
 template <int Dim>
-Cooperation cooperation_of(const Formulation<Dim>& formulation, const LoadBalance<Dim>& balance,
-                           GlobalIndex particles);
+Cooperation cooperation_of(const Formulation<Dim>& formulation, const LoadBalance<Dim>& balance);
 
 void archive_goings_back(Archive& archive, std::vector<GoingBack>& goings_back);
 

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "image_files.hpp"
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <tiffio.h>
 
@@ -284,6 +285,17 @@ TEST_F(Tiff, SlicesWithoutPagesAreRefused)
   EXPECT_EQ(error_of({{.description = "ImageJ=1.53t\nimages=40\nslices=40\n"}}),
             "is an ImageJ stack of 40 slices in 1 pages. Save what is to be modelled as an image "
             "sequence, or as a stack of less than 4 GB.");
+}
+
+TEST_F(Tiff, PagesThatAreChannelsOrTimesAreRefused)
+{
+  for (const char* other : {"channels", "frames"})
+    EXPECT_EQ(
+        error_of({{.description =
+                       fmt::format("ImageJ=1.53t\nimages=1\n{}=2\nhyperstack=true\n", other)}}),
+        fmt::format("is an ImageJ hyperstack of 2 {}, whose pages are not all slices. Save one "
+                    "of them as a stack (Image > Hyperstacks > Make Subset).",
+                    other));
 }
 
 TEST_F(Tiff, FloatingPointSamplesAreRefused)
