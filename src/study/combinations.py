@@ -62,7 +62,8 @@ def _labelled(settings):
 
 
 def read_combinations(keys, default_ranks):
-    """Every combination of the lists of `vary` with every entry of `runs`."""
+    """Every combination of the lists of `vary` with every entry of `runs`; the keys that vary; and by
+    key the nodes of its values."""
     lists = _lists(keys["vary"]) if "vary" in keys else {}
     entries = [("", {})]  # label and settings
     if "runs" in keys:
@@ -81,7 +82,9 @@ def read_combinations(keys, default_ranks):
         labelled = tuple(entry) if label else ()
         for values in itertools.product(*(node.value for node in lists.values())):
             chosen = {**dict(zip(lists, values)), **entry}
-            nodes.update({key: nodes.get(key, node) for key, node in chosen.items()})
+            for key, node in chosen.items():
+                if not any(node is known for known in nodes.setdefault(key, [])):
+                    nodes[key].append(node)
             ranks = int(chosen["ranks"].value) if "ranks" in chosen else default_ranks
             settings = tuple((key, chosen[key].text) for key in varied
                              if key in chosen and key != "ranks")

@@ -28,7 +28,10 @@ def assignments_of(given):
 def plateau_range(given):
     """The strains of --plateau as fractions."""
     try:
-        ends = tuple(to_si(text)[1] for text in given.plateau)
+        (kind, low), (other, high) = map(to_si, given.plateau)
+        if {kind, other} != {"number"}:
+            raise ValueError("are no strains")
+        ends = low, high
         if not 0 <= ends[0] < ends[1] < 1:
             raise ValueError("does not rise within 0 and 100 %")
     except ValueError as error:
@@ -61,8 +64,10 @@ def axes_of_pieces(scene, effective, cells):
     if named is None or len(cells) == 2 or _get(effective, "specimen.remove_specks") is None:
         return len(cells)
     path = pathlib.Path(scene).parent / named
-    if "*" in path.name or path.name.endswith(".anatomy.yaml"):
-        return 3
+    if path.name.endswith(".anatomy.yaml"):
+        return 3 if _get(read_yaml(path), "grain") else 2
+    if "*" in path.name:
+        return 3 if len(list(path.parent.glob(path.name))) > 1 else 2
     from PIL import Image  # as NumPy, after the runs
     Image.MAX_IMAGE_PIXELS = None  # mpm_par has read it
     with Image.open(path) as picture:

@@ -141,6 +141,12 @@ def ladder(study, measure, rows):
     return sorted(good, reverse=True, key=lambda row: _size(study, row))
 
 
+def _sizes(study, steps):
+    """Of levels from coarse to fine; None where two are of the same size, which tell no order."""
+    sizes = [_size(study, row) for row in steps]
+    return sizes if len(set(sizes)) == len(sizes) else None
+
+
 def _learnt(study, measure, rows):
     """The reference that a ladder gives, or None if it holds no good run."""
     steps = ladder(study, measure, rows)
@@ -154,9 +160,11 @@ def _learnt(study, measure, rows):
     if len(steps) < 2:
         finest.warnings.append("one level only: nothing to compare it with")
         return finest
-    found = convergence.limit(
-        [_size(study, row) for row in steps],
-        [row.values[measure.name] for row in steps])
+    sizes = _sizes(study, steps)
+    if sizes is None:
+        finest.warnings.append("two levels are of the same size: no order")
+        return finest
+    found = convergence.limit(sizes, [row.values[measure.name] for row in steps])
     finest.order, finest.orders = found.order, found.orders
     if measure.against == "finest":
         finest.warnings += found.warnings
@@ -199,16 +207,19 @@ def _set_errors(study, measure, rows, found):
             row.errors[measure.name] = abs(value)
         else:
             row.errors[measure.name] = results.relative_error(value, reference.value)
+            if row.errors[measure.name] is None:
+                row.remarks[measure.name] = "no error relative to a reference of 0"
 
 
 def _set_bars(study, measure, rows):
     """The estimated error of the finest run of every ladder of numbers: docs/studies.md."""
     for series in dict.fromkeys(series_of(study, row) for row in rows):
         own = ladder(study, measure, [row for row in rows if series_of(study, row) == series])
-        if len(own) < 2 or measure.kind == "curve":
+        sizes = _sizes(study, own)
+        if len(own) < 2 or sizes is None or measure.kind == "curve":
             continue
         own[-1].bars[measure.name] = convergence.estimate(
-            [_size(study, row) for row in own], [row.values[measure.name] for row in own])
+            sizes, [row.values[measure.name] for row in own])
 
 
 def _set_known_orders(study, measure, points, found):
@@ -216,7 +227,7 @@ def _set_known_orders(study, measure, points, found):
     for series, reference in found.items():
         own = ladder(study, measure, [row for row in points if series_of(study, row) == series])
         errors = [row.errors[measure.name] for row in own]
-        if len(own) < 2 or min(errors[-2:]) <= 0:
+        if len(own) < 2 or _sizes(study, own) is None or None in errors or min(errors[-2:]) <= 0:
             continue
         pairs = zip(zip(own, errors), zip(own[1:], errors[1:]))
         reference.orders = [math.log(fine / coarse) / math.log(_size(study, b) / _size(study, a))
@@ -238,7 +249,7 @@ def _warnings(found):
         return list(dict.fromkeys(line.split(": ", 1)[1] for line in lines))
     values = [reference.value for reference in found.values()
               if reference and reference.value is not None]
-    apart = max((results.relative_error(one, other) for one in values for other in values),
+    apart = max((results.relative_error(one, other) or 0 for one in values for other in values),
                 default=0)
     if apart > 0.001:
         lines.append(f"each series is judged by its own limit, and these differ by up to "

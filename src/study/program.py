@@ -41,7 +41,8 @@ class Program:
     mpiexec: the command, as a list of words, to which the number of ranks is appended."""
 
     def __init__(self, path, mpiexec):
-        self.path = pathlib.Path(shutil.which(path) or path)
+        # A name alone would be looked for in PATH.
+        self.path = pathlib.Path(shutil.which(path) or path).absolute()
         self.mpiexec = mpiexec
         if not os.access(self.path, os.X_OK):
             raise InputError(f"{self.path}: is no program. Build mpm_par, or name it in MPM_PAR.")

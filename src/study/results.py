@@ -59,6 +59,8 @@ def value(measure, done):
 
 
 def relative_error(found, reference):
-    """|found - reference| / |reference|, of curves in the 2-norm."""
-    return float(numpy.linalg.norm(numpy.atleast_1d(found - reference))
-                 / numpy.linalg.norm(numpy.atleast_1d(reference)))
+    """|found - reference| / |reference|, of curves in the 2-norm; None of a reference of 0."""
+    whole = numpy.linalg.norm(numpy.atleast_1d(reference))
+    if whole == 0:
+        return None
+    return float(numpy.linalg.norm(numpy.atleast_1d(found - reference)) / whole)

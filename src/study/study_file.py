@@ -37,7 +37,7 @@ class Study:
     shared: dict  # key of the scene: node of its value
     combinations: list
     varied: list  # keys that differ between runs, in the order of the file
-    nodes: dict  # key of the scene: a node that sets it, for messages
+    nodes: dict  # key of the scene: the nodes that set it
     along: str  # key that refines, or None
     level_keys: tuple  # along, and what changes with it: all else makes series
     repeat: int
@@ -57,7 +57,7 @@ class Study:
         settings.update(combination.settings)
         if not any(key.startswith("output.snapshots") or
                    key == "output" and node.is_map and "snapshots" in node.value
-                   for key, node in {**self.shared, **self.nodes}.items()):
+                   for key, nodes in self.nodes.items() for node in nodes):
             settings["output.snapshots"] = "0"  # behind an `output` that replaces all of it
         return list(settings.items())
 
@@ -89,7 +89,7 @@ def _along(keys, varied, combinations, nodes):
                 raise ValueError("is not set by every entry of runs")
             resolution.size(along, text)
         except ValueError as error:
-            raise nodes[along].wrong(f"{along}, along which the study refines, "
+            raise nodes[along][0].wrong(f"{along}, along which the study refines, "
                                      f"{error if text is None else f'is {text} ({error})'}",
                                      "Set it in vary, or choose another key with along.") from None
     return along
@@ -138,7 +138,7 @@ def read_study(path, quick=False, ranks=1):
     study = Study(
         path=path, title=keys["title"].text if "title" in keys else path.stem,
         scene=scene, shared=shared, combinations=combinations, varied=varied,
-        nodes={**shared, **nodes}, along=along, level_keys=of_level,
+        nodes={**{key: [node] for key, node in shared.items()}, **nodes}, along=along, level_keys=of_level,
         repeat=whole_number(keys["repeat"], "repeat", 1) if "repeat" in keys else 1,
         unstable_above=quantity(keys["unstable_above"], "unstable_above", "number", "5 %")
         if "unstable_above" in keys else 0.05,

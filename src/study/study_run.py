@@ -1,4 +1,5 @@
 """A study from its file to its tables and plots."""
+import itertools
 import time
 
 import machine
@@ -15,7 +16,7 @@ def check_keys(study, program):
     """A key that no scene knows is a mistake in the study file; a value that this scene does not
     bear is a row of the table. Keys of a run that mpm_par accepts as a whole are known; of the
     others each is tried by itself."""
-    unknown = {key: node for key, node in study.nodes.items() if key != "ranks"}
+    unknown = {key: nodes[0] for key, nodes in study.nodes.items() if key != "ranks"}
     for combination in study.combinations:
         own = [key for key, _ in study.assignments(combination) if key in unknown]
         if own and not program.check(study.scene, study.assignments(combination)):
@@ -103,7 +104,7 @@ def run_studies(given, program, output):
 def run(study, part, program, output):
     """Runs what is not done, then writes study.csv, study.json and the plots into `output`."""
     output.mkdir(parents=True, exist_ok=True)
-    trees = [read_yaml(study.scene), *study.nodes.values()]
+    trees = [read_yaml(study.scene), *itertools.chain(*study.nodes.values())]
     kept = store.Store(output, store.scene_print(study.scene, trees), program.identity)
     rounds = run_all(study, program, kept, lambda line: print(line, flush=True),
                      part or (1, 1))

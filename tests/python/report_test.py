@@ -198,6 +198,15 @@ class Report(ProgramTest):
         run = mpm_report(folder, "--error-bar", record.parent)
         self.assertEqual(run.returncode, 2)
         self.assertIn("is of another scene", run.stderr)
+        # Walls that yield later have the same modulus.
+        buckling = {**bar, "value": 40e6}
+        record.write_text(json.dumps({"figures": {"modulus": bar, "buckling_stress": buckling}}))
+        found = summary(folder)
+        found["compression"]["buckling"] = {"strain": 0.01, "stress": 60e6, "strain_error": 0, "stress_error": 0}
+        (folder / "summary.json").write_text(json.dumps(found))
+        run = mpm_report(folder, "--error-bar", record.parent)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("(its stress of buckling is 40 MPa, this run's 60 MPa)", run.stderr)
 
     def test_wrong_use_has_status_2_and_one_message(self):
         folder = self.results("confined_block", label="bare")

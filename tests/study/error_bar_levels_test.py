@@ -1,4 +1,5 @@
 """Settings of coarser and finer levels: the geometry stays; and bars out of figures of levels."""
+import pathlib
 import tempfile
 import types
 import unittest
@@ -60,9 +61,16 @@ class Levels(unittest.TestCase):
                                                 tree({"specimen": {"micrograph": name,
                                                                    "remove_specks": "9"}}), cells)
 
-            self.assertEqual([axes(name, (3, 3, 3)) for name in ("one.png", "one.tif", "two.tif", "s_*.png")],
-                             [2, 2, 3, 3])
-            self.assertEqual([axes("one.png", (3, 3)), axes("pine.anatomy.yaml", (3, 3, 3))], [2, 3])
+            self.assertEqual([axes(name, (3, 3, 3)) for name in ("one.png", "one.tif", "two.tif")],
+                             [2, 2, 3])
+            self.assertEqual(axes("one.png", (3, 3)), 2)
+            pages[0].save(f"{folder}/s_1.png")
+            self.assertEqual(axes("s_*.png", (3, 3, 3)), 2, "a stack of one")
+            pages[0].save(f"{folder}/s_2.png")
+            self.assertEqual(axes("s_*.png", (3, 3, 3)), 3)
+            for name, text, expected in (("pine", "grain: {tracheid_length: 2 mm}\n", 3), ("flat", "", 2)):
+                (pathlib.Path(folder) / f"{name}.anatomy.yaml").write_text(f"size: [1 mm, 1 mm]\n{text}")
+                self.assertEqual(axes(f"{name}.anatomy.yaml", (3, 3, 3)), expected)
 
     def test_leave_the_scene_as_it_is(self):
         self.assertEqual(level(1, given=[("a", "b")]), {"a": "b"})

@@ -39,6 +39,20 @@ class Errors(unittest.TestCase):
         self.assertAlmostEqual(errors(rows)[0], 35 / 205)
         self.assertNotIn(rows[-1], outcome.fronts["wall_seconds"])
 
+    def test_against_0_there_are_none(self):
+        for known in "finest", 0.0:
+            study, rows, outcome = evaluated(known, {"gimp": [3.0, 1.0, 0.0]})
+            self.assertEqual(errors(rows), [None, None, None])
+            self.assertEqual(rows[0].remarks["modulus"], "no error relative to a reference of 0")
+            self.assertIn("modulus", tables.terminal_text(study, rows, [outcome]))
+
+    def test_of_levels_of_one_size_show_no_order(self):
+        for against in "finest", "richardson", 200.0:
+            _, rows, outcome = evaluated(against, {"gimp": [3.0, 2.0, 1.0]},
+                                         levels=[10, (20, 40), (40, 20)])
+            self.assertTrue(all(row.bars == {} for row in rows))
+            self.assertIsNone(next(iter(outcome.references.values())).order)
+
     def test_against_the_extrapolation_are_those_against_the_limit(self):
         _, rows, outcome = evaluated("richardson", {"gimp": ladder(200, 400, 1)})
         numpy.testing.assert_allclose(errors(rows), [0.2, 0.1, 0.05, 0.025])

@@ -11,9 +11,10 @@ SHAPE = "numerics.shape_function"
 
 
 def study(measure, series=("gimp",), levels=(10, 20, 40, 80), targets=(0.01, 0.001)):
-    """Cells n x n for each level and series."""
-    runs = [Combination(((SHAPE, shape), (ALONG, f"[{n}, {n}]")), 1)
-            for shape in series for n in levels]
+    """Cells n x n, or n x m, for each level and series."""
+    pairs = [level if isinstance(level, tuple) else (level, level) for level in levels]
+    runs = [Combination(((SHAPE, shape), (ALONG, f"[{n}, {m}]")), 1)
+            for shape in series for n, m in pairs]
     return Study(pathlib.Path("study.yaml"), "Made up", pathlib.Path("scene.yaml"), {}, runs,
                  [SHAPE, ALONG], {}, ALONG, (ALONG,), 1, 0.05, None, [measure], list(targets))
 
@@ -39,11 +40,11 @@ def cells_of(combination):
 
 
 def evaluated(against, values, series=("gimp",), seconds=None, states=None, targets=(0.01, 0.001),
-              **more):
+              levels=None, **more):
     """(study, rows, outcome). values: series to list of values from coarse to fine."""
     measure = Measure("modulus", "of", path="modulus", against=against, against_text=str(against),
                       **more)
-    levels = [10 * 2 ** k for k in range(len(values[series[0]]))]
+    levels = levels or [10 * 2 ** k for k in range(len(values[series[0]]))]
     made = study(measure, series, levels, targets)
     flat = [value for one in series for value in values[one]]
     rows = [row(made, run, value, (seconds or (lambda r: 1e-5 * cells_of(r) ** 3))(run),

@@ -67,6 +67,11 @@ class Runs(StudyFile):
         self.assertEqual(not_asked.assignments(not_asked.combinations[0])[-2:],
                          [("output", "{history_lines: 50}"), ("output.snapshots", "0")])
 
+    def test_know_all_their_values_of_which_any_may_name_a_picture(self):
+        nodes = self.read(GOOD.replace("[gimp, quadratic]", "[a.png, b.png, a.png]")).nodes
+        self.assertEqual([node.text for node in nodes["numerics.shape_function"]], ["a.png", "b.png", "a.png"])
+        self.assertEqual([node.text for node in nodes["loading.strain"]], ["25 %"])
+
     def test_of_a_list_go_with_every_combination(self):
         study = self.read(GOOD + "runs:\n  - {numerics.scheme: apic}\n"
                                  "  - {numerics.scheme: flip, numerics.cfl: 0.5}\n")

@@ -6,6 +6,7 @@ import numpy
 from matplotlib.colors import Normalize
 
 from mpm_par import raster
+from mpm_par.problems import ResultsError
 
 INK, PALE = "#1f2328", "#d0d7de"
 BLUE, ORANGE, GREEN, PURPLE, SKY, RED = ("#0072b2", "#d55e00", "#009e73", "#aa4499", "#56b4e9",
@@ -216,6 +217,11 @@ def section_of(run, snapshot, bounds, place=None):
         return raster.View((0, 1))
     axes, normal = (((2, 0), 1) if run.axis == 2 else ((0, 1), 2))
     edge = raster.edge_of(snapshot, run.thickness, run.is_in_space)
-    return raster.View(axes, normal, bounds[:, normal].mean() if place is None else place,
+    low, high = bounds[:, normal]
+    if place is not None and not low <= place <= high:
+        raise ResultsError(f"the section at {length_text(place)} does not meet the specimen, which "
+                           f"reaches from {length_text(low)} to {length_text(high)} along "
+                           f"{'xyz'[normal]}. Name a place there.")
+    return raster.View(axes, normal, 0.5 * (low + high) if place is None else place,
                        raster.layer_of(snapshot, normal, edge))
 

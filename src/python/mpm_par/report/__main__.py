@@ -94,11 +94,19 @@ def bars_of(given, run):
     if not given.error_bar:
         return None
     bars = read_error_bar(given.error_bar)
-    own, theirs = run.properties.get("modulus"), bars["modulus"].value
-    if not own or not theirs or abs(own / theirs - 1) > 0.02:
-        shown = ["none" if not value else f"{value / 1e6:.4g} MPa" for value in (theirs, own)]
-        raise ResultsError(f"{given.error_bar}: is of another scene (its modulus is {shown[0]}, "
-                           f"this run's {shown[1]}). Run mpm_study --error-bar on this scene.")
+    # Walls may give way in another order on other ranks.
+    for name, key, tolerance in (("modulus", "modulus", 0.02),
+                                 ("stress of buckling", "buckling", 0.1),
+                                 ("stress of densification", "densification", 0.1)):
+        own = run.properties.get(key)
+        bar = bars.get(key if key == "modulus" else f"{key}_stress")
+        own, theirs = own["stress"] if isinstance(own, dict) else own, bar and bar.value
+        if key != "modulus" and not (own and theirs):
+            continue
+        if not own or not theirs or abs(own / theirs - 1) > tolerance:
+            shown = ["none" if not value else f"{value / 1e6:.4g} MPa" for value in (theirs, own)]
+            raise ResultsError(f"{given.error_bar}: is of another scene (its {name} is {shown[0]}, "
+                               f"this run's {shown[1]}). Run mpm_study --error-bar on this scene.")
     return bars
 
 
@@ -141,7 +149,8 @@ def make_of_studies(given):
     from mpm_par.report.contents import write
     from mpm_par.report.studies import contents
 
-    if given.at or given.window or given.error_bar or given.section:
+    of_run = arguments_of([given.folder])
+    if vars(given) != vars(of_run):
         raise UsageError(f"{given.folder} holds studies: options of the report of a run do not "
                          "apply. Leave them away, or name the folder of one run.")
     return write(given.folder, *contents(given.folder))

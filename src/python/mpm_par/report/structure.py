@@ -72,13 +72,15 @@ class Stage:
     """Where a run's structure is painted: the same place and pixels at all moments."""
 
     def __init__(self, run, place=None, across=raster.PIXELS_ACROSS):
-        first, last = run.snapshots[0], run.snapshots[-1]
-        bounds = [first.bounds(), last.bounds()]
-        both = numpy.array([numpy.minimum(bounds[0][0], bounds[1][0]),
-                            numpy.maximum(bounds[0][1], bounds[1][1])])
+        first = run.snapshots[0]
+        # Under a piston a specimen grows wider, and not longer; what moves freely may come back.
+        seen = run.snapshots if run.axis is None else (first, run.snapshots[-1])
+        bounds = [snapshot.bounds() for snapshot in seen]
+        whole = numpy.array([numpy.min([lower for lower, _ in bounds], axis=0),
+                             numpy.max([upper for _, upper in bounds], axis=0)])
         self.edge = raster.edge_of(first, run.thickness, run.is_in_space)
         self.view = pictures.section_of(run, first, bounds[0], place)
-        self.canvas = raster.canvas_of(both, self.view, self.edge, across)
+        self.canvas = raster.canvas_of(whole, self.view, self.edge, across)
         left, right, bottom, top = self.canvas.extent
         self.width, self.aspect = right - left, (top - bottom) / (right - left)
 

@@ -77,9 +77,9 @@ def _ladders(stem, study):
             for style, one in zip(("o-", "s--", "^:", "d-.") * 4, series):
                 own = [run for run in runs if run["label"] == one
                        and run[f"value_{measure['name']}"] is not None]
-                if not own:
+                last = own[-1][f"value_{measure['name']}"] if own else 0
+                if not last:  # nothing is relative to 0
                     continue
-                last = own[-1][f"value_{measure['name']}"]
                 name = measure["name"].replace("_", " ")
                 axes.plot([levels.index(run["level"]) for run in own],
                           [100 * (run[f"value_{measure['name']}"] / last - 1) for run in own],

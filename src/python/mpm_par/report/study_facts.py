@@ -202,8 +202,9 @@ def opening(study):
 
 
 def cost(studies):
-    """(runs, wall seconds of the whole programs, core seconds) of all studies."""
+    """(runs, wall seconds of the whole programs, core seconds) of all studies, with runs as often as
+    they were made."""
     runs = [run for study in studies for run in study.record["runs"]]
-    elapsed = [run["elapsed_seconds"] or 0.0 for run in runs]
+    elapsed = [(run["elapsed_seconds"] or 0.0) * run.get("rounds", 1) for run in runs]
     ranks = [float(run["settings"].get("ranks") or 1) for run in runs]
     return len(runs), sum(elapsed), float(numpy.dot(elapsed, ranks))
