@@ -94,7 +94,7 @@ specimen:
 grid: {{cells: {cells}}}
 numerics: {{formulation: {formulation}_lagrangian}}
 loading: {{piston: right, speed: 50 m/s, strain: 0.25, lateral: symmetric, grip: slip}}
-output: {{history_lines: 50, snapshots: 0}}
+output: {{history_lines: 200, snapshots: 0}}
 """
 
     def run_crop(self, label, depth, cells, formulation):
