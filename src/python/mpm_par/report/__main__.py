@@ -93,16 +93,14 @@ def bars_of(given, run):
 
     if not given.error_bar:
         return None
-    bars = read_error_bar(given.error_bar)
-    # Walls may give way in another order on other ranks.
-    for name, key, tolerance in (("modulus", "modulus", 0.02),
-                                 ("stress of buckling", "buckling", 0.1),
-                                 ("stress of densification", "densification", 0.1)):
-        own = run.properties.get(key)
-        bar = bars.get(key if key == "modulus" else f"{key}_stress")
-        own, theirs = own["stress"] if isinstance(own, dict) else own, bar and bar.value
-        if key != "modulus" and not (own and theirs):
-            continue
+    bars, found = read_error_bar(given.error_bar), run.properties
+    compared = [("modulus", found.get("modulus"), bars["modulus"].value, 0.02)]
+    for key in "buckling", "densification":
+        bar = bars.get(f"{key}_stress")
+        # Walls may give way in another order on other ranks.
+        if found.get(key) and bar and bar.value:
+            compared.append((f"stress of {key}", found[key]["stress"], bar.value, 0.1))
+    for name, own, theirs, tolerance in compared:
         if not own or not theirs or abs(own / theirs - 1) > tolerance:
             shown = ["none" if not value else f"{value / 1e6:.4g} MPa" for value in (theirs, own)]
             raise ResultsError(f"{given.error_bar}: is of another scene (its {name} is {shown[0]}, "
