@@ -57,8 +57,6 @@ try {
 } catch (const mpm::UnitError& error) {
   throw InputError(
       fmt::format("{}:1: column '{}': {}. {}", file, name, error.what(), error.remedy()));
-} catch (const InputError& error) {
-  throw InputError(fmt::format("{}:1: {}", file, error.what()));
 }
 
 /// Whether a run has written these stresses: means since the line before.

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,11 +14,16 @@ namespace mpm::micrograph {
 
 double otsu_threshold(std::span<const double> gray)
 {
-  std::array<double, 256> count{};
+  // Bins begin at the levels that thresholds may have, so that a threshold parts the pixels as it
+  // was counted: whole ones of 8 bits where all grays are, of 16 bits otherwise.
+  const bool whole = std::ranges::all_of(gray, [](double level) { return level == int(level); });
+  const int bins_per_level = whole ? 1 : 257;
+  std::vector<double> count(std::size_t(255 * bins_per_level + 1));
   double total = 0, total_level = 0;
   for (const double level : gray) {
-    const auto bin = std::size_t(std::clamp(std::lround(level), 0L, 255L));
-    count[bin] += 1;
+    constexpr double rounding = 1e-6;  // of levels that are fractions of 257
+    const auto bin = std::size_t(level * bins_per_level + rounding);
+    count[std::min(bin, count.size() - 1)] += 1;
     total += 1;
     total_level += double(bin);
   }
@@ -43,7 +49,7 @@ double otsu_threshold(std::span<const double> gray)
         "specimen.threshold is otsu, but the image has a single gray level. Check the image and "
         "the "
         "crop.");
-  return double((first + last) / 2);
+  return double((first + last) / 2) / bins_per_level;
 }
 
 double nth_smallest(std::span<const double> values, std::int64_t n, const Share& share)

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -26,12 +27,15 @@ std::string_view trimmed(std::string_view text)
 std::vector<std::string_view> cells_of(std::string_view line)
 {
   std::vector<std::string_view> cells;
-  for (std::size_t comma = line.find(','); comma != std::string_view::npos;
-       comma = line.find(',')) {
-    cells.push_back(trimmed(line.substr(0, comma)));
-    line.remove_prefix(comma + 1);
+  bool quoted = false;  // where a comma is part of a text
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (line[k] == '"') quoted = !quoted;
+    if (line[k] != ',' || quoted) continue;
+    cells.push_back(trimmed(line.substr(begin, k - begin)));
+    begin = k + 1;
   }
-  cells.push_back(trimmed(line));
+  cells.push_back(trimmed(line.substr(begin)));
   return cells;
 }
 
@@ -118,10 +122,14 @@ const std::vector<double>& HistoryTable::operator[](const std::string& name) con
 {
   std::string known;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (columns[c].name == name) return values[c];
+    if (columns[c].name == name) {
+      if (!words[c].empty()) throw InputError(words[c]);
+      return values[c];
+    }
     known += (c == 0 ? "" : ", ") + columns[c].name;
   }
-  throw InputError(fmt::format("there is no column '{}' (there are: {}).", name, known));
+  throw InputError(
+      fmt::format("{}:1: there is no column '{}' (there are: {}).", file.string(), name, known));
 }
 
 HistoryTable read_history(const std::filesystem::path& file)
@@ -135,8 +143,10 @@ HistoryTable read_history(const std::filesystem::path& file)
                     file.string()));
   if (line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets mark UTF-8 so
   HistoryTable table;
+  table.file = file;
   for (const std::string_view cell : cells_of(line)) table.columns.push_back(column_of(cell));
   table.values.resize(table.columns.size());
+  table.words.resize(table.columns.size());
 
   for (int number = 2; std::getline(stream, line); ++number) {
     if (trimmed(line).empty()) continue;
@@ -146,10 +156,10 @@ HistoryTable read_history(const std::filesystem::path& file)
                                    file.string(), number, cells.size(), table.columns.size()));
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const std::optional<double> value = number_of(cells[c]);
-      if (!value)
-        throw InputError(fmt::format("{}:{}: '{}' in column '{}' is not a number.", file.string(),
-                                     number, cells[c], table.columns[c].name));
-      table.values[c].push_back(*value);
+      table.values[c].push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+      if (value || cells[c].empty() || !table.words[c].empty()) continue;
+      table.words[c] = fmt::format("{}:{}: '{}' in column '{}' is not a number.", file.string(),
+                                   number, cells[c], table.columns[c].name);
     }
   }
   return table;

@@ -17,9 +17,10 @@ constexpr bool is_wall(double mean, double threshold, scene::Wall wall)
 }
 
 /// N. Otsu, IEEE Trans. Syst. Man Cybern. 9 (1979) 62: the level that makes the variance between
-/// the two classes greatest, over the pixels rounded to whole levels. The result t makes the
-/// classes `below t` and `t and above`; where no pixel lies between the classes, the middle of the
-/// gap, rounded down. Throws InputError for an image of one level.
+/// the two classes greatest. It is a whole one where all pixels are, and a multiple of 1/257, the
+/// levels of 16 bits, otherwise. The result t makes the classes `below t` and `t and above`; where
+/// no pixel lies between the classes, the middle of the gap, rounded down. Throws InputError for an
+/// image of one level.
 double otsu_threshold(std::span<const double> gray);
 
 /// The n-th smallest (n from 0) of the values that all parts hold together; none is negative.

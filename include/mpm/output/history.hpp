@@ -35,12 +35,16 @@ class HistoryFile {
 
 /// A history as read back: columns by name without the unit.
 struct HistoryTable {
+  std::filesystem::path file;
   std::vector<HistoryColumn> columns;
-  std::vector<std::vector<double>> values;                               ///< values[column][line]
-  const std::vector<double>& operator[](const std::string& name) const;  ///< throws InputError
+  std::vector<std::vector<double>> values;  ///< values[column][line], NaN where the file has none
+  std::vector<std::string> words;           ///< of each column: where it has words, or nothing
+  /// Throws InputError naming file and line if there is no such column, or one of words.
+  const std::vector<double>& operator[](const std::string& name) const;
   bool has(const std::string& name) const;
 };
-/// Any comma-separated table with one header line. Throws InputError naming file and line.
+/// Any comma-separated table with one header line. Cells may be empty, and columns that nobody asks
+/// for hold words. Throws InputError naming file and line.
 HistoryTable read_history(const std::filesystem::path& file);
 
 }  // namespace mpm::output

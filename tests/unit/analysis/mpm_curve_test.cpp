@@ -105,6 +105,26 @@ TEST(MpmCurve, ConvertsTheUnitsOfALaboratoryTable)
   EXPECT_THAT(outcome.text, HasSubstr("onset of buckling       54.4"));
 }
 
+TEST(MpmCurve, PassesOverWhatALaboratoryDidNotMeasure)
+{
+  const std::string file = scratch("gaps.csv");
+  std::ofstream stream(file);
+  stream << "specimen,strain [%],stress [MPa],remark\n";
+  for (int i = 0; i <= 3000; ++i) {
+    const double strain = 0.0002 * i;
+    stream << "P7," << 100 * strain << ',';
+    if (i % 7 != 3) stream << synthetic::wood(strain) / 1e6;
+    stream << (i == 1200 ? ",\"cracks, at the edge\"\n" : ",\n");
+  }
+  stream.close();
+  const Outcome outcome = run(file);
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("onset of buckling       54."));
+  const Outcome words = run(file + " --stress-column remark");
+  EXPECT_EQ(words.status, 2);
+  EXPECT_THAT(words.text, HasSubstr("gaps.csv:1202: 'cracks, at the edge' in column 'remark'"));
+}
+
 TEST(MpmCurve, DrawsTheLineOfDensificationWhereItIsAskedFor)
 {
   const std::string file = wood_history("strain [1],stress [Pa]", 1, 1);
@@ -122,7 +142,7 @@ TEST(MpmCurve, BadInputIsStatusTwoWithOneClearLine)
   const std::string file = wood_history("strain [1],force [Pa]", 1, 1);
   const Outcome column = run(file);
   EXPECT_EQ(column.status, 2);
-  EXPECT_THAT(column.text, HasSubstr("no column 'stress' (there are: strain, force)"));
+  EXPECT_THAT(column.text, HasSubstr(":1: there is no column 'stress' (there are: strain, force)"));
   const Outcome missing = run(std::string("'").append(scratch("not there.csv")).append("'"));
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.text, HasSubstr("cannot be read"));

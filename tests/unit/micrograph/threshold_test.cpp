@@ -32,27 +32,46 @@ TEST(OtsuThreshold, TwoLevelsArePartedInTheMiddle)
   EXPECT_EQ(otsu_threshold(std::vector<double>{254, 255}), 255);
 }
 
-TEST(OtsuThreshold, MaximizesTheVarianceBetweenTheClasses)
+double variance_between(const std::vector<double>& gray, double threshold)
 {
-  // Two triangular humps of unlike weight; compared with trying every threshold on the levels.
+  double below = 0, below_sum = 0, above = 0, above_sum = 0;
+  for (const double level : gray) {
+    (level < threshold ? below : above) += 1;
+    (level < threshold ? below_sum : above_sum) += level;
+  }
+  const double difference = below_sum / below - above_sum / above;
+  return below * above * difference * difference;
+}
+
+/// Two triangular humps of unlike weight; `unit`: gray of one level of the 256.
+std::vector<double> two_humps(double unit)
+{
   std::vector<double> gray;
   for (int level = 0; level < 256; ++level) {
     const int count =
         std::max(0, 40 - std::abs(level - 70)) + std::max(0, 60 - std::abs(level - 160)) / 3;
-    gray.insert(gray.end(), std::size_t(count), level);
+    gray.insert(gray.end(), std::size_t(count), level * unit);
   }
-  const auto variance_between = [&](double threshold) {
-    double below = 0, below_sum = 0, above = 0, above_sum = 0;
-    for (const double level : gray) {
-      (level < threshold ? below : above) += 1;
-      (level < threshold ? below_sum : above_sum) += level;
-    }
-    const double difference = below_sum / below - above_sum / above;
-    return below * above * difference * difference;
-  };
-  const double best = variance_between(otsu_threshold(gray));
-  for (int threshold = 40; threshold < 200; ++threshold)
-    EXPECT_LE(variance_between(threshold), best * (1 + 1e-12));
+  return gray;
+}
+
+TEST(OtsuThreshold, MaximizesTheVarianceBetweenTheClasses)
+{
+  // Compared with trying every threshold on the levels. A unit of 1/257: 8 bits that a file of 16
+  // bits holds as they were; 16/257: 12 bits; the last one as weighted colours have it.
+  for (const double unit : {1.0, 1.0 / 257, 16.0 / 257, 0.587}) {
+    const std::vector<double> gray = two_humps(unit);
+    const double best = variance_between(gray, otsu_threshold(gray));
+    for (int threshold = 40; threshold < 200; ++threshold)
+      EXPECT_LE(variance_between(gray, threshold * unit), best * (1 + 1e-12)) << unit;
+  }
+}
+
+TEST(OtsuThreshold, PicturesOfSixteenBitsArePartedAsThoseOfEight)
+{
+  const double whole = otsu_threshold(two_humps(1));
+  EXPECT_EQ(otsu_threshold(two_humps(1.0 / 257)), whole / 257);
+  EXPECT_EQ(otsu_threshold(std::vector<double>{3.0 / 257, 4.0 / 257, 4.0 / 257}), 4.0 / 257);
 }
 
 TEST(OtsuThreshold, ImageOfOneLevelIsRefused)

@@ -83,10 +83,23 @@ TEST(History, ReadsWhatSpreadsheetsWrite)
   EXPECT_THAT(table["stress"], ElementsAre(2000, 3000));
 }
 
+TEST(History, CellsWithoutNumbersAreInNobodysWayUntilTheirColumnIsAskedFor)
+{
+  const HistoryTable table = read_history(file_with(
+      "laboratory.csv", "strain [1],stress [Pa],note\n0,,\"wet, but whole\"\n0.1,2e6,\n"));
+  EXPECT_THAT(table["strain"], ElementsAre(0, 0.1));
+  EXPECT_TRUE(std::isnan(table["stress"][0]));
+  EXPECT_EQ(table["stress"][1], 2e6);
+  EXPECT_THAT(message_of<InputError>([&] { table["note"]; }),
+              HasSubstr("laboratory.csv:2: 'wet, but whole' in column 'note' is not a number"));
+}
+
 TEST(History, WrongLineIsNamedByFileAndNumber)
 {
-  const auto words = file_with("words.csv", "strain [1],stress [Pa]\n0,0\n0.1,much\n");
-  EXPECT_THAT(message_of<InputError>([&] { read_history(words); }),
+  const HistoryTable words =
+      read_history(file_with("words.csv", "strain [1],stress [Pa]\n0,0\n0.1,much\n0.2,more\n"));
+  EXPECT_THAT(words["strain"], ElementsAre(0, 0.1, 0.2));
+  EXPECT_THAT(message_of<InputError>([&] { words["stress"]; }),
               HasSubstr("words.csv:3: 'much' in column 'stress' is not a number"));
   const auto cut = file_with("cut.csv", "strain [1],stress [Pa]\n0,0\n0.1\n");
   EXPECT_THAT(message_of<InputError>([&] { read_history(cut); }),
@@ -99,7 +112,7 @@ TEST(History, UnknownColumnIsAnsweredWithTheKnownOnes)
 {
   const HistoryTable table = read_history(file_with("known.csv", "strain [1],stress [Pa]\n0,0\n"));
   EXPECT_THAT(message_of<InputError>([&] { table["strian"]; }),
-              HasSubstr("no column 'strian' (there are: strain, stress)"));
+              HasSubstr("known.csv:1: there is no column 'strian' (there are: strain, stress)"));
 }
 
 TEST(History, LinesThatHaveNotBeenAreCutAndOthersTakeTheirPlace)
