@@ -1,6 +1,8 @@
 /// mpm_par: start, read, run, and say on one rank what went wrong.
 
 #include <mpm/core/error.hpp>
+#include <mpm/core/interruption.hpp>
+#include <mpm/core/memory.hpp>
 #include <mpm/micrograph/preview.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/scene/command_line.hpp>
@@ -12,6 +14,7 @@
 #include <mpm/simulation/step_measurement.hpp>
 
 #include <cstdio>
+#include <new>
 #include <optional>
 
 #include <fmt/format.h>
@@ -75,6 +78,12 @@ void plan_and_run(const scene::CommandLine& command_line, const scene::Scene& sc
   }
   if (command_line.preview) leave_preview(preparation, *command_line.preview);
   if (command_line.check) return;
+  if (const double share = share_of_memory(preparation); share > 1)
+    throw InputError(
+        fmt::format("{}: takes {} of memory and more, {:.3g} times what there is. Give fewer "
+                    "grid.cells, or use "
+                    "more machines.",
+                    command_line.scene.string(), memory_text(preparation.plan.bytes()), share));
   std::vector<std::filesystem::path> pictures;
   if (scene.specimen.micrograph)
     pictures = micrograph::files_of_image(scene.specimen.micrograph->file);
@@ -99,14 +108,31 @@ void read_and_run(const scene::CommandLine& command_line, Ending& ending)
     plan_and_run<3>(command_line, scene, std::move(picture), ending);
 }
 
-void report(Ending& ending, ExitStatus status, const char* what)
-{
-  ending.status = int(status);
-  ending.message = what;
-  if (rank_of(MPI_COMM_WORLD) != 0) return;
-  std::fflush(stdout);
-  fmt::print(stderr, "{}\n", what);
-}
+/// How the program ends after an error: all ranks together, or at once where this one is alone.
+class Endings {
+ public:
+  Endings() { MPI_Comm_dup(MPI_COMM_WORLD, &comm_); }
+  ~Endings() { MPI_Comm_free(&comm_); }
+  Endings(const Endings&) = delete;
+  Endings& operator=(const Endings&) = delete;
+
+  void report(Ending& ending, ExitStatus status, const char* what) const
+  {
+    ending.status = int(status);
+    ending.message = what;
+    const int rank = rank_of(comm_);
+    std::fflush(stdout);
+    if (rank == 0) fmt::print(stderr, "{}\n", what);
+    if (all_arrive(comm_, seconds_of_ending)) return;
+    if (rank != 0) fmt::print(stderr, "rank {}: {}\n", rank, what);
+    MPI_Abort(MPI_COMM_WORLD, int(status));
+  }
+
+ private:
+  static constexpr double seconds_of_ending = 60;
+
+  MPI_Comm comm_ = MPI_COMM_NULL;
+};
 
 /// Status 1: something is wrong that is no run's.
 int test_machine(const scene::CommandLine& command_line, const std::optional<Launched>& launched,
@@ -118,7 +144,8 @@ int test_machine(const scene::CommandLine& command_line, const std::optional<Lau
 }
 
 Ending run(const std::variant<scene::CommandLine, scene::Answer>& asked,
-           const std::optional<Launched>& launched, std::optional<SelfTestLimit>& limit)
+           const std::optional<Launched>& launched, std::optional<SelfTestLimit>& limit,
+           const Endings& endings)
 {
   Ending ending;
   try {
@@ -132,13 +159,20 @@ Ending run(const std::variant<scene::CommandLine, scene::Answer>& asked,
     else
       read_and_run(command_line, ending);
   } catch (const InputError& error) {
-    report(ending, ExitStatus::bad_input, error.what());
+    endings.report(ending, ExitStatus::bad_input, error.what());
   } catch (const NumericalError& error) {
-    report(ending, ExitStatus::numerical_failure, error.what());
+    endings.report(ending, ExitStatus::numerical_failure, error.what());
   } catch (const Interruption& interruption) {
-    report(ending, ExitStatus::interrupted, interruption.what());
+    endings.report(ending, ExitStatus::interrupted, interruption.what());
   } catch (const FileError& error) {
-    report(ending, ExitStatus::file_failure, error.what());
+    endings.report(ending, ExitStatus::file_failure, error.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(
+        stderr,
+        "rank {}: there is no memory left of {}. Give fewer grid.cells, or use more machines "
+        "(mpm_par --check says what a scene takes).\n",
+        rank_of(MPI_COMM_WORLD), memory_text(memory_limit()));
+    MPI_Abort(MPI_COMM_WORLD, 1);
   } catch (const std::exception& error) {
     // Not foreseen, and perhaps on this rank only: the others must not wait for it.
     fmt::print(stderr, "rank {}: {}\n", rank_of(MPI_COMM_WORLD), error.what());
@@ -169,7 +203,10 @@ int main(int argc, char** argv)
     asked = scene::parse_command_line({argv + 1, argv + argc}, version_text());
     if (const auto* command_line = std::get_if<scene::CommandLine>(&asked)) {
       petsc = command_line->petsc;
-      if (command_line->self_test) limit.emplace(seconds_of_a_check, "start of MPI");
+      if (command_line->self_test)
+        limit.emplace(seconds_of_a_check, "start of MPI");
+      else if (!command_line->check)
+        watch_for_interruptions();
     }
   } catch (const InputError& error) {
     wrong_usage = error.what();
@@ -180,10 +217,11 @@ int main(int argc, char** argv)
     const Session session(argc, argv, petsc);
     rank = rank_of(MPI_COMM_WORLD);
     spdlog::set_pattern("%l: %v");
+    const Endings endings;
     if (wrong_usage.empty())
-      ending = run(asked, from, limit);
+      ending = run(asked, from, limit, endings);
     else
-      report(ending, ExitStatus::bad_input, wrong_usage.c_str());
+      endings.report(ending, ExitStatus::bad_input, wrong_usage.c_str());
   }
   if (!leaves_report(asked, ending)) return ending.status;
   // A launcher ends all ranks once one of them ends with another status than 0, and rank 0 would

@@ -150,14 +150,15 @@ int main(int argc, char** argv)
   app.add_option("--stress-column", request.stress_column, "compressive stress, positive")
       ->capture_default_str();
   app.add_option("--discard", request.discard,
-                 "leave out smaller strains, such as '0.6 %': the start-up transient lasts "
-                 "2 x piston speed / wave speed")
+                 "leave out smaller strains, such as '0.6 %': the\nstart-up transient lasts "
+                 "2 x piston speed / wave\nspeed")
       ->capture_default_str();
   app.add_option("--ringing", request.ringing, "strain of one period of the curve's ringing")
       ->capture_default_str();
   app.add_option("--densification-line", request.densification_line,
-                 "the line that rises from the plateau goes through the points at so many times "
-                 "the plateau's last stress")
+                 "the line that rises from the plateau goes through\nthe points at so many times "
+                 "its last stress (2 4)")
+      ->type_name("FROM TO")
       ->capture_default_str();
   app.add_option("--json", request.json, "write the properties to this file as well");
   try {

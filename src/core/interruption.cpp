@@ -19,7 +19,6 @@ void take_down(int signal)
 
 void watch_for_interruptions()
 {
-  last_signal = 0;
   struct sigaction action {};
   action.sa_handler = take_down;
   action.sa_flags = int(SA_RESETHAND) | SA_RESTART;

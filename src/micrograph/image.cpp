@@ -1,3 +1,4 @@
+#include <mpm/core/memory.hpp>
 #include <mpm/micrograph/image.hpp>
 #include <mpm/micrograph/image_formats.hpp>
 #include <mpm/scene/slices.hpp>
@@ -216,6 +217,13 @@ void check_dimensions(std::int64_t width, std::int64_t height, std::int64_t slic
         fmt::format("{} x {} pixels are too many (at most {}). Cut out the part to be modelled, or "
                     "scale the image down.",
                     width, height, most_pixels));
+  constexpr double bytes_per_pixel = 16;  // as numbers, and once more while it is read or cut
+  const double bytes = bytes_per_pixel * double(width) * double(height) * double(slices);
+  if (bytes > memory_limit())
+    throw InputError(fmt::format(
+        "{} x {} x {} pixels take {} of memory on each rank, and there are {}. Cut out the part to "
+        "be modelled, or scale the image down.",
+        width, height, slices, memory_text(bytes), memory_text(memory_limit())));
 }
 
 GrayImage read_image(const std::filesystem::path& file)

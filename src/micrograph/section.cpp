@@ -1,4 +1,5 @@
 #include <mpm/core/error.hpp>
+#include <mpm/core/memory.hpp>
 #include <mpm/micrograph/grown_walls.hpp>
 #include <mpm/micrograph/location_means.hpp>
 #include <mpm/micrograph/material_names.hpp>
@@ -71,6 +72,18 @@ double matched(double limit, std::span<const double> pixels, std::span<const dou
   return level_with_share_below(means, double(below) / double(pixels.size()), share);
 }
 
+/// Throws InputError where the machine has too little for what a part holds while it is filled.
+void expect_memory(GlobalIndex locations, int parts)
+{
+  constexpr double bytes_per_location = 16;
+  const double bytes = bytes_per_location * double(locations) / parts;
+  if (bytes <= memory_limit()) return;
+  throw InputError(
+      fmt::format("grid.cells make {:.3g} locations of particles, which take {} on each rank, and "
+                  "there are {}. Give fewer, or use more ranks on more machines.",
+                  double(locations), memory_text(bytes), memory_text(memory_limit())));
+}
+
 /// Values of all parts that lie in a band.
 double count_in(std::span<const double> grays, std::span<const Band> bands, const Share& share)
 {
@@ -127,15 +140,19 @@ Section<Dim>::Section(const scene::Scene& scene, Picture picture, const IndexVec
   const scene::Micrograph& micrograph = *scene.specimen.micrograph;
   const IndexBox<Dim> whole{IndexVec<Dim>::Zero(), count};
   Lattice<Dim> held{count, slab(whole, share.part, share.parts), {}, {}};
+  expect_memory(whole.size(), share.parts);
   std::vector<double> means = location_means(image_, count, held.part);
   const std::optional<double> aim = aimed_share(scene);
   const bool matches = micrograph.sampling == scene::Sampling::match && !aim;
 
   std::vector<Band> of_pixels = bands_of(scene);
   const bool by_threshold = of_pixels.empty();
+  PieceRules rules{micrograph.remove_specks, micrograph.remove_unconnected};
+  for (int d = 0; d < Dim; ++d) rules.periodic[std::size_t(d)] = scene::is_periodic(scene, d);
   if (by_threshold) {
+    if (micrograph.threshold_shift == 0) figures_.aim = aim.value_or(0);
     figures_.threshold =
-        aim ? threshold_of_density(*aim, micrograph, picture.size, held.part, means, share)
+        aim ? threshold_of_density(*aim, micrograph, picture.size, rules, held, means, share)
         : micrograph.threshold_rule == ThresholdRule::otsu ? otsu_threshold(image_.gray)
                                                            : micrograph.threshold;
     figures_.threshold += micrograph.threshold_shift;
@@ -156,9 +173,7 @@ Section<Dim>::Section(const scene::Scene& scene, Picture picture, const IndexVec
   const double filled = count_in(means, bands_, share);
   if (filled == 0) fail_without_wall(micrograph, figures_.threshold, means, whole.size(), share);
   held.material = materials_of(means, bands_);
-  PieceRules rules{micrograph.remove_specks, micrograph.remove_unconnected};
-  for (int d = 0; d < Dim; ++d) rules.periodic[std::size_t(d)] = scene::is_periodic(scene, d);
-  if (rules.fewest_locations > 1 || rules.only_largest) remove_pieces(rules, held, filled, share);
+  if (rules.remove_something()) remove_pieces(rules, held, filled, share);
   if (rules.only_largest) return;
   for (const Run& run :
        removed_runs(held, {.only_largest = true, .periodic = rules.periodic}, share))
@@ -168,20 +183,17 @@ Section<Dim>::Section(const scene::Scene& scene, Picture picture, const IndexVec
 template <int Dim>
 double Section<Dim>::threshold_of_density(double target, const scene::Micrograph& micrograph,
                                           const std::array<double, 2>& size,
-                                          const IndexBox<Dim>& part, std::vector<double>& means,
-                                          const Share& share)
+                                          const PieceRules& rules, Lattice<Dim>& held,
+                                          std::vector<double>& means, const Share& share)
 {
-  const double threshold = threshold_for_density(means, target, micrograph.wall, share);
-  if (std::ranges::min(image_.gray) == std::ranges::max(image_.gray)) return threshold;
+  const Parting found = parting_that_leaves(target, rules, micrograph.wall, held, means, share);
+  if (std::ranges::min(image_.gray) == std::ranges::max(image_.gray)) return found.threshold;
   // Beyond the gray of the walls or of the lumens a threshold parts noise.
   const GrayClasses classes = gray_classes(image_);
-  const double locations = double(IndexBox<Dim>{IndexVec<Dim>::Zero(), count_}.size());
-  const Band found = wall_band(threshold, micrograph.wall);
-  const double missed =
-      std::abs(count_in(means, {&found, 1}, share) / locations - target) - 0.5 / locations;
   constexpr double tolerated = 0.005;
-  if (threshold > classes.dark && threshold < classes.bright && missed < tolerated)
-    return threshold;
+  if (found.threshold > classes.dark && found.threshold < classes.bright &&
+      found.missed < tolerated)
+    return found.threshold;
   if (image_.slices > 1)
     throw InputError(
         fmt::format("specimen.threshold: no gray level between {:.1f} and {:.1f}, which most of "
@@ -192,11 +204,46 @@ double Section<Dim>::threshold_of_density(double target, const scene::Micrograph
   const std::array<double, 2> pixel{size[0] / image_.width, size[1] / image_.height};
   GrownWalls grown = grown_walls(image_, classes, micrograph.wall, pixel);
   image_ = std::move(grown.image);
-  means = location_means(image_, count_, part);
-  const double level = threshold_for_density(means, target, micrograph.wall, share);
+  means = location_means(image_, count_, held.part);
+  const double level =
+      parting_that_leaves(target, rules, micrograph.wall, held, means, share).threshold;
   figures_.growth =
       grown.growth(level + micrograph.threshold_shift) * std::sqrt(pixel[0] * pixel[1]);
   return level;
+}
+
+template <int Dim>
+typename Section<Dim>::Parting Section<Dim>::parting_that_leaves(
+    double target, const PieceRules& rules, scene::Wall wall, Lattice<Dim>& held,
+    std::span<const double> means, const Share& share) const
+{
+  const double locations = double(IndexBox<Dim>{IndexVec<Dim>::Zero(), count_}.size());
+  const double enough = std::max(0.5 / locations, 1e-6);
+  // More wall leaves more of it: pieces only grow together.
+  double lower = target, upper = 1, least_missing = std::numeric_limits<double>::infinity();
+  Parting best{};
+  int steps = 0;
+  for (double parted = target; upper - lower > enough;) {
+    const double threshold = threshold_for_density(means, parted, wall, share);
+    const Band band = wall_band(threshold, wall);
+    const double filled = count_in(means, {&band, 1}, share);
+    double left = filled;
+    if (rules.remove_something()) {
+      held.material = materials_of(means, {&band, 1});
+      for (const Run& run : removed_runs(held, rules, share)) left -= double(run.end - run.begin);
+    }
+    const double missing = target - left / locations;
+    if (std::abs(missing) < least_missing) {
+      least_missing = std::abs(missing);
+      best = {threshold, std::abs(filled / locations - parted) - 0.5 / locations};
+    }
+    if (!rules.remove_something() || least_missing <= enough) break;
+    (missing > 0 ? lower : upper) = parted;
+    // What is missing is to be added, most often; where a piece comes or goes, halves find it.
+    parted += missing;
+    if (!(parted > lower && parted < upper && ++steps % 2 == 1)) parted = 0.5 * (lower + upper);
+  }
+  return best;
 }
 
 template <int Dim>

@@ -2,10 +2,12 @@
 #include <mpm/parallel/open_files.hpp>
 #include <mpm/parallel/session.hpp>
 
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <numeric>
 #include <string>
+#include <thread>
 
 #include "petsc_check.hpp"
 
@@ -160,6 +162,21 @@ void agree(MPI_Comm comm, const std::function<void()>& action)
       throw FileError(text);
     default:
       throw std::runtime_error(text);
+  }
+}
+
+bool all_arrive(MPI_Comm comm, double seconds)
+{
+  using Clock = std::chrono::steady_clock;
+  const auto until = Clock::now() + std::chrono::duration<double>(seconds);
+  MPI_Request all;
+  MPI_Ibarrier(comm, &all);
+  for (;;) {
+    int done = 0;
+    MPI_Test(&all, &done, MPI_STATUS_IGNORE);
+    if (done) return true;
+    if (Clock::now() > until) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }
 

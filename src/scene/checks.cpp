@@ -80,6 +80,23 @@ void check_stability(const Checked& checked)
       fmt::format("Use scheme: {}, or shape_function: {}", bears->keyword, alternatives(shapes)));
 }
 
+namespace {
+
+/// What would leave none.
+void check_checkpoints(const Checked& checked)
+{
+  const std::string path = "output.checkpoints";
+  const auto& checkpoints = checked.scene.output_keys.checkpoints;
+  if (!checkpoints || !checked.given(path) || !checked.sound(path)) return;
+  if (checkpoints->strain && std::holds_alternative<FreeMotion>(checked.scene.motion))
+    checked.refuse(path + ".strain", "free motion has no strain", "Use steps or wall_time");
+  if (!checkpoints->steps && !checkpoints->strain && !checkpoints->wall_time)
+    checked.refuse(path, "it does not say when",
+                   "Add wall_time: 30 min, strain: 5 % or steps: 10000");
+}
+
+}  // namespace
+
 void check_run(const Checked& checked)
 {
   const SceneKeys& scene = checked.scene;
@@ -118,6 +135,7 @@ void check_run(const Checked& checked)
       }
     }
   }
+  check_checkpoints(checked);
   if (const auto* motion = std::get_if<FreeMotion>(&scene.motion)) {
     if (snapshots.strains) checked.refuse(strains, "free motion has no strain", "Use times");
     if (snapshots.times && checked.sound("free_motion")) {

@@ -15,6 +15,22 @@ bool has_plastic_strain(const Material& material, Plane plane)
   return std::ranges::find(columns, "plastic_strain", &Column::name) != columns.end();
 }
 
+/// Laws that are not there in the plane, or not in space.
+void check_law(const Checked& checked, const LawRow& law, const std::string& key)
+{
+  if (!law.deformable() || !checked.sound(key)) return;
+  const bool in_space = checked.scene.dimensions == 3;
+  const auto there = [&](const LawRow& row) {
+    return in_space ? bool(row.in_space) : bool(row.in_plane);
+  };
+  if (there(law)) return;
+  std::vector<std::string> others;
+  for (const LawRow& row : list_of<LawRow>())
+    if (there(row)) others.emplace_back(row.keyword);
+  checked.refuse(key, fmt::format("it is there in {} only", in_space ? "the plane" : "space"),
+                 "Use " + alternatives(others));
+}
+
 void check_failure(const Checked& checked, const Material& material, const std::string& path)
 {
   const std::string key = path + ".failure";
@@ -53,6 +69,7 @@ void check_materials(const Checked& checked)
     if (material.law->check && checked.sound(path))
       if (const auto found = material.law->check(material.values))
         checked.refuse(path + "." + found->key, found->reason);
+    check_law(checked, *material.law, path + ".law");
     check_failure(checked, material, path);
     if (material.name == "void" || material.name.empty())
       checked.refuse(path + ".name", "stands for no material", "Choose another name");

@@ -96,6 +96,11 @@ std::vector<std::string> without_petsc(const std::vector<std::string>& arguments
       const std::string name = word.substr(0, word.find('='));
       if (std::ranges::find(names, name) == names.end())
         throw InputError(fmt::format("unknown option '{}' ({})", name, suggestion(name, names)));
+      if (word.starts_with("--restart=")) {
+        ours.push_back(name);
+        given.checkpoint = word.substr(name.size() + 1);
+        continue;
+      }
       ours.push_back(word);
       if (word == "--set" || word == "--output" || word == "--ranks" || word == "--time-limit" ||
           word == "--preview")
@@ -130,6 +135,11 @@ void take_continuation(Options& options)
   CommandLine& given = options.command_line;
   if (given.restart && given.overwrite)
     throw InputError("--restart goes on with what --overwrite would take away. Give one of them.");
+  if (given.checkpoint && given.checkpoint->extension() != ".h5")
+    throw InputError(
+        fmt::format("--restart is {} (a checkpoint ends with .h5). Name one, or none "
+                    "for the newest in the folder of results.",
+                    given.checkpoint->string()));
   if (options.time_limit.empty()) return;
   try {
     given.time_limit = to_si(options.time_limit, Quantity::time);

@@ -148,6 +148,15 @@ Node read_document(const std::filesystem::path& file)
                      "directory).");
   if (fs::is_directory(file, ignored))
     throw InputError(name + ": is a directory. Name the scene file inside it.");
+  // A device or a pipe may have no end, and gives each rank another part of what it has.
+  if (!fs::is_regular_file(file, ignored))
+    throw InputError(name + ": is not a file. Save the scene, and name the file.");
+  constexpr std::uintmax_t most_bytes = 1'000'000;
+  if (fs::file_size(file, ignored) > most_bytes)
+    throw InputError(
+        fmt::format("{}: has {} bytes (a scene has some thousand; at most {}). Name the scene, not "
+                    "a picture or results; what is large belongs in a picture.",
+                    name, fs::file_size(file, ignored), most_bytes));
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   text << stream.rdbuf();

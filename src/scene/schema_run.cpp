@@ -32,7 +32,8 @@ const std::vector<Parameter<Grid>>& parameters<Grid>()
            .bound = at_least(0),
            .spread = true,
            .default_text = "0; 25 % of the width at free lateral sides"},
-          "empty space left, right, below and above the specimen; in space also behind and before"),
+          "empty space left, right, below and above the specimen; in space also behind and before; "
+          "cells of total_lagrangian go where they will"),
   };
   return rows;
 }
@@ -65,8 +66,8 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 {.bound = from_to(0, 100),
                  .default_text = "2 of total_lagrangian, 0.5 of walls with grip: contact"},
                 "times the modulus of the fastest wave times the depth over the size of a location "
-                "is the pressure of a wall with grip: contact, and half of that across a flush "
-                "contact of total_lagrangian; 0 there: no contact"),
+                "is the pressure of a wall with grip: contact (updated_lagrangian); twice that is "
+                "the one across a flush contact of total_lagrangian, 0 there: no contact"),
       member<N>("mass_scaling", &N::mass_scaling,
                 {.bound = from_to(0, 1), .default_text = "0.8 under a piston; 0 in free motion"},
                 "cells with a smaller least stretch are made heavier, by the square of this over "
@@ -103,10 +104,13 @@ const std::vector<Parameter<Numerics>>& parameters<Numerics>()
                 "volumetric increments averaged around every node, against locking near Poisson's "
                 "ratio 1/2; not in plane stress")
           .when(of_grid),
-      member<N>("cfl", &N::cfl,
-                {.bound = {End{0, false}, End{3, true}},
-                 .default_text = "by shape function and update order"},
-                "time step times fastest wave over cell size"),
+      member<N>(
+          "cfl", &N::cfl,
+          {.bound = {End{0, false}, End{3, true}},
+           .default_text = "by shape function, scheme and update order; of total_lagrangian by "
+                           "contact_stiffness"},
+          "time step times fastest wave over the size of a cell, of total_lagrangian of a "
+          "location"),
       member<N>("decomposition", &N::decomposition, {},
                 "straight cuts, blocks of cells mapped by METIS, or what is better balanced"),
       member<N>("ranks", &N::ranks, {.bound = at_least(0), .default_text = "chosen"},

@@ -202,10 +202,11 @@ const std::vector<Parameter<Specimen>>& parameters<Specimen>()
           },
           {}, "left and right, or top and bottom exchanged, after the rotation")
           .when(from_image),
-      image_member("wall", &I::wall, {}, "whether the cell wall is the bright or the dark part"),
       image_member("bands", &I::bands,
                    {.decides = true, .default_text = "none: one material by threshold"},
                    "several materials by gray level; gray outside all bands is void"),
+      image_member("wall", &I::wall, {}, "whether the cell wall is the bright or the dark part")
+          .when(without_bands),
       property<ThresholdKey, S>("threshold", threshold_key, set_threshold, {.bound = gray_level},
                                 "gray level that separates cell wall and lumen")
           .when(without_bands),

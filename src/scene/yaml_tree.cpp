@@ -25,7 +25,10 @@ constexpr std::size_t most_copies = 100'000;
 class TreeBuilder {
  public:
   TreeBuilder(const std::string& text, const std::string& origin, bool single_place)
-      : origin_(origin), single_place_(single_place), most_nodes_(text.size() + most_copies)
+      : text_(text),
+        origin_(origin),
+        single_place_(single_place),
+        most_nodes_(text.size() + most_copies)
   {
   }
 
@@ -47,6 +50,7 @@ class TreeBuilder {
       node.kind = Node::Kind::scalar;
       node.scalar = printable(from.Scalar(), node.place);
       node.quoted = from.Tag() == "!";
+      if (node.quoted) expect_closed(from.Mark(), node.place);
     } else if (from.IsSequence()) {
       node.kind = Node::Kind::list;
       for (const YAML::Node& item : from) node.items.push_back(build(item, node.place, depth + 1));
@@ -66,6 +70,25 @@ class TreeBuilder {
     return node;
   }
 
+  /// The library takes all that follows a quote that nothing closes for its text.
+  void expect_closed(const YAML::Mark& mark, const Place& place) const
+  {
+    if (mark.is_null() || std::size_t(mark.pos) >= text_.size()) return;
+    const char quote = text_[std::size_t(mark.pos)];
+    if (quote != '"' && quote != '\'') return;
+    for (std::size_t k = std::size_t(mark.pos) + 1; k < text_.size(); ++k) {
+      const bool doubled = text_[k] == '\'' && k + 1 < text_.size() && text_[k + 1] == '\'';
+      if (quote == '"' ? text_[k] == '\\' : doubled)
+        ++k;
+      else if (text_[k] == quote)
+        return;
+    }
+    throw InputError(
+        fmt::format("{}: nothing closes the quote that opens here. Put another {} "
+                    "behind the text.",
+                    place.text(), quote));
+  }
+
   static const std::string& printable(const std::string& text, const Place& place)
   {
     const auto defect = unprintable(text);
@@ -83,6 +106,7 @@ class TreeBuilder {
   }
 
  private:
+  const std::string& text_;
   std::string origin_;
   bool single_place_;
   std::size_t most_nodes_, nodes_ = 0;

@@ -18,6 +18,9 @@ namespace {
 constexpr GlobalIndex steps_between_readings = 5;
 /// And between two looks at the energy balance.
 constexpr GlobalIndex steps_between_looks = 200;
+/// Of the kinetic energy that the specimen would have at the largest speed: a smaller work is that
+/// of a piston which has not met anything yet, and no measure of errors.
+constexpr double least_share = 1e-6;
 
 template <int Dim>
 double fastest_wave(const Formulation<Dim>& formulation)
@@ -36,6 +39,7 @@ History<Dim>::History(Formulation<Dim>& formulation, std::optional<Apparatus<Dim
     : formulation_(formulation),
       apparatus_(std::move(apparatus)),
       start_(sum_over_bodies(formulation_)),
+      least_energy_(least_share * 0.5 * start_.mass * largest_speed * largest_speed),
       energy_(start_.mass, fastest_wave(formulation_), largest_speed)
 {
 }
@@ -164,7 +168,8 @@ void History<Dim>::balance(HistoryLine& line, const Sums<Dim>& sums)
   const double last_step = ahead - work_ahead_before_.value_or(ahead);
   work_ahead_before_.reset();
   const double surplus = this->surplus(sums) - last_step;
-  const double scale = std::max(std::abs(line.external_work), start_.kinetic_energy);
+  const double scale =
+      std::max({std::abs(line.external_work), start_.kinetic_energy, least_energy_});
   line.energy_error = scale > 0 ? surplus / scale : 0;
   energy_.check(formulation_, surplus, work_size_ + start_.kinetic_energy);
   const double pushes = impulse_size_ + start_.momentum.norm();

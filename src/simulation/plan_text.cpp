@@ -1,3 +1,5 @@
+#include <mpm/core/folded.hpp>
+#include <mpm/core/memory.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/kept_state.hpp>
 #include <mpm/simulation/method.hpp>
@@ -24,14 +26,6 @@ double step_cost(const scene::Numerics& numerics)
 {
   if (is_total_lagrangian(numerics)) return cost_of_cells<Dim>;
   return numerics.shape_function->step_cost * (Dim == 2 ? 1.0 : 2.5);
-}
-
-std::string memory(double bytes)
-{
-  if (bytes < 1e6) return fmt::format("{:.0f} kB", 1e-3 * bytes);
-  if (bytes < 1e7) return fmt::format("{:.1f} MB", 1e-6 * bytes);
-  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
-                     : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
 std::string duration(double seconds)
@@ -85,15 +79,15 @@ std::vector<std::string> files_text(const Preparation<Dim>& preparation,
       moments, [&](double moment) { return moment <= preparation.plan.end_time * (1 + 1e-9); });
   if (count > 0)
     lines.push_back(fmt::format("{} snapshot{}, {} each{}, {} in all", count, count == 1 ? "" : "s",
-                                memory(measured.snapshot_bytes),
+                                memory_text(measured.snapshot_bytes),
                                 output.compress ? " before compression" : "",
-                                memory(double(count) * measured.snapshot_bytes)));
+                                memory_text(double(count) * measured.snapshot_bytes)));
   if (output.checkpoints)
     lines.push_back(fmt::format("checkpoints, {} each, the last {} kept",
-                                memory(measured.checkpoint_bytes), output.checkpoints->keep));
+                                memory_text(measured.checkpoint_bytes), output.checkpoints->keep));
   else
     lines.push_back(fmt::format("a checkpoint where a signal ends the run, {}",
-                                memory(measured.checkpoint_bytes)));
+                                memory_text(measured.checkpoint_bytes)));
   return lines;
 }
 
@@ -135,7 +129,7 @@ std::string plan_text(const Preparation<Dim>& preparation, const StepMeasurement
   const int ranks = ranks_of(preparation.comm);
   std::string text;
   const auto line = [&](const char* what, const std::string& value) {
-    text += fmt::format("  {:<18} {}\n", what, value);
+    text += fmt::format("  {:<18} {}\n", what, folded(value, 21));
   };
   const auto lines = [&](const char* what, const std::vector<std::string>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) line(k == 0 ? what : "", values[k]);
@@ -174,8 +168,9 @@ std::string plan_text(const Preparation<Dim>& preparation, const StepMeasurement
     line("messages", fmt::format("{:.0f} a step, {:.3g} kB, from the busiest rank",
                                  plan.messages_per_step, 1e-3 * plan.bytes_per_step));
   line("ranks", ranks_text(preparation.partition));
-  line("memory", fmt::format("{} B per particle, {} B per node, {} in all",
-                             plan.bytes_per_particle(), plan.nodes.bytes(), memory(plan.bytes())));
+  line("memory",
+       fmt::format("{} B per particle, {} B per node, {} in all", plan.bytes_per_particle(),
+                   plan.nodes.bytes(), memory_text(plan.bytes())));
   line("nodes",
        fmt::format("{:.0f} allocated; updated: ", plan.nodes.allocated) +
            (plan.nodes.reach ? fmt::format("{} below to {} above used cells",
@@ -190,12 +185,12 @@ std::string plan_text(const Preparation<Dim>& preparation, const StepMeasurement
     line("", "and turn freely: finer cells leave fewer of them");
   }
   line("last sound state", fmt::format("{} more at most, kept every {} steps for",
-                                       memory(plan.bytes()), KeptState<Dim>::steps_between));
+                                       memory_text(plan.bytes()), KeptState<Dim>::steps_between));
   line("", scene.numerics.recovery == scene::Recovery::retry
                ? "another attempt and a snapshot of failure"
                : "a snapshot of failure");
   if (ranks > 1 && is_total_lagrangian(scene.numerics))
-    line("moving borders", fmt::format("{} more for a moment", memory(plan.bytes())));
+    line("moving borders", fmt::format("{} more for a moment", memory_text(plan.bytes())));
   if (measured) {
     lines("run time", run_time_text(preparation, *measured));
     lines("files", files_text(preparation, *measured));

@@ -1,3 +1,5 @@
+#include <mpm/core/memory.hpp>
+#include <mpm/parallel/launcher.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/method.hpp>
 #include <mpm/simulation/preparation.hpp>
@@ -44,12 +46,28 @@ scene::Scene Preparation<Dim>::effective_scene() const
   scene::Scene effective = scene;
   effective.numerics.cfl = layout.cfl;
   if (is_total_lagrangian(scene.numerics)) effective.numerics.mass_scaling = mass_scaling_of(scene);
+  if (is_total_lagrangian(scene.numerics) || walls_push(scene))
+    effective.numerics.contact_stiffness = contact_stiffness(scene.numerics);
+  if (!effective.grid.cells && !effective.grid.spacing) {
+    auto& cells = effective.grid.cells.emplace();
+    for (int d = 0; d < Dim; ++d) cells[std::size_t(d)] = specimen.cells()[d];
+  }
   if (auto* loading = std::get_if<scene::Loading>(&effective.motion))
     loading->ramp_time = layout.piston.ramp_time;
   return effective;
 }
 
+template <int Dim>
+double share_of_memory(const Preparation<Dim>& preparation)
+{
+  const double of_rank = preparation.plan.bytes() / ranks_of(preparation.comm);
+  const double of_machine = of_rank * ranks_on_this_node(preparation.comm) / memory_limit();
+  return largest_over_ranks(preparation.comm, of_machine);
+}
+
 template struct Preparation<2>;
 template struct Preparation<3>;
+template double share_of_memory(const Preparation<2>&);
+template double share_of_memory(const Preparation<3>&);
 
 }  // namespace mpm

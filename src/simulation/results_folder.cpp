@@ -16,9 +16,12 @@ namespace mpm {
 
 namespace {
 
-constexpr std::array<const char*, 6> files_of_a_run{"history.csv",        "summary.json",
-                                                    "exact_solution.csv", "scene.yaml",
-                                                    "specimen.png",       "report.html"};
+constexpr std::array<const char*, 6> single_files{"history.csv",        "summary.json",
+                                                  "exact_solution.csv", "scene.yaml",
+                                                  "specimen.png",       "report.html"};
+
+/// Folders of states.
+constexpr std::array<const char*, 2> parts{"snapshots", "checkpoints"};
 
 /// Without the title of an effective scene, which names the file that it was made of.
 std::string without_title(const std::string& text)
@@ -52,16 +55,15 @@ std::vector<std::filesystem::path> files_ending(const std::filesystem::path& fol
 void ResultsFolder::expect_no_input(std::span<const std::filesystem::path> inputs,
                                     const std::string& effective_scene) const
 {
-  for (const std::filesystem::path& input : inputs)
-    for (const char* name : files_of_a_run) {
-      const std::filesystem::path place = folder_ / name;
+  for (const std::filesystem::path& place : files())
+    for (const std::filesystem::path& input : inputs) {
       std::error_code none;
       if (std::filesystem::equivalent(input, place, none) &&
           !is_effective_scene(place, effective_scene))
-        throw InputError(fmt::format(
-            "{}: the run reads this file, and would write its {} there. Choose another folder with "
-            "--output.",
-            place.string(), name));
+        throw InputError(
+            fmt::format("{}: the run reads this file, and would put its results in its place. "
+                        "Choose another folder with --output.",
+                        place.string()));
     }
 }
 
@@ -110,12 +112,34 @@ void ResultsFolder::occupy()
   lock_.emplace(folder_);
 }
 
+std::vector<std::filesystem::path> ResultsFolder::files() const
+{
+  std::vector<std::filesystem::path> found = files_of_report();
+  const auto add = [&](const std::filesystem::path& folder, const char* ending) {
+    const std::vector<std::filesystem::path> more = files_ending(folder, ending);
+    found.insert(found.end(), more.begin(), more.end());
+  };
+  for (const std::filesystem::path& folder : {folder_, folder_ / "failure"}) {
+    add(folder, ".xdmf");
+    for (const char* part : parts) add(folder / part, ".h5");
+  }
+  for (const char* name : single_files)
+    if (std::filesystem::exists(folder_ / name)) found.push_back(folder_ / name);
+  return found;
+}
+
+std::vector<std::filesystem::path> ResultsFolder::files_of_report() const
+{
+  std::vector<std::filesystem::path> found;
+  for (const char* ending : {".png", ".svg"})
+    for (const std::filesystem::path& file : files_ending(folder_ / "report", ending))
+      found.push_back(file);
+  return found;
+}
+
 bool ResultsFolder::holds_a_run() const
 {
-  return std::ranges::any_of(
-             files_of_a_run,
-             [&](const char* name) { return std::filesystem::exists(folder_ / name); }) ||
-         !files_ending(folder_ / "checkpoints", ".h5").empty();
+  return !files().empty();
 }
 
 void ResultsFolder::remove(const std::filesystem::path& file) const
@@ -130,27 +154,20 @@ void ResultsFolder::remove(const std::filesystem::path& file) const
 void ResultsFolder::clear_report() const
 {
   remove(folder_ / "report.html");
-  for (const char* ending : {".png", ".svg"})
-    for (const std::filesystem::path& file : files_ending(folder_ / "report", ending)) remove(file);
+  for (const std::filesystem::path& file : files_of_report()) remove(file);
   std::error_code kept;  // with what else stands there
   std::filesystem::remove(folder_ / "report", kept);
 }
 
 void ResultsFolder::clear() const
 {
-  clear_report();
-  const std::filesystem::path failure = folder_ / "failure";
-  for (const std::filesystem::path& folder : {folder_, failure}) {
-    for (const std::filesystem::path& list : files_ending(folder, ".xdmf")) remove(list);
-    for (const char* part : {"snapshots", "checkpoints"}) {
-      for (const std::filesystem::path& file : files_ending(folder / part, ".h5")) remove(file);
-      std::error_code kept;  // with what else stands there
-      std::filesystem::remove(folder / part, kept);
-    }
+  for (const std::filesystem::path& file : files()) remove(file);
+  std::error_code kept;  // with what else stands there
+  for (const std::filesystem::path& folder : {folder_ / "failure", folder_}) {
+    for (const char* part : parts) std::filesystem::remove(folder / part, kept);
+    if (folder != folder_) std::filesystem::remove(folder, kept);
   }
-  std::error_code kept;
-  std::filesystem::remove(failure, kept);
-  for (const char* name : files_of_a_run) remove(folder_ / name);
+  std::filesystem::remove(folder_ / "report", kept);
 }
 
 }  // namespace mpm

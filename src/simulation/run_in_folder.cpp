@@ -1,7 +1,6 @@
 /// A run that leaves its results in a folder and words on the terminal.
 
 #include <mpm/core/error.hpp>
-#include <mpm/core/interruption.hpp>
 #include <mpm/micrograph/preview.hpp>
 #include <mpm/output/checksum.hpp>
 #include <mpm/output/replace_file.hpp>
@@ -224,7 +223,6 @@ RunResult run_in_folder(const Preparation<Dim>& preparation, const RunRequest& r
   Snapshots<Dim> snapshots(preparation, folder);
   const std::array<Observer<Dim>*, 6> observers{&writer,  &history, &progress,
                                                 &failure, &exact,   &snapshots};
-  watch_for_interruptions();
   const RunResult result = run<Dim>(preparation, observers, std::move(continuation));
   on_rank_zero(comm, [&] {
     write_summary(preparation, result, exact, folder / "summary.json");

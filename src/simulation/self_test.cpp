@@ -1,3 +1,4 @@
+#include <mpm/core/folded.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/simulation/self_test.hpp>
 
@@ -24,29 +25,6 @@ void end_at_the_limit(int)
   const auto written [[maybe_unused]] =
       ::write(STDERR_FILENO, words_at_the_limit.data(), std::strlen(words_at_the_limit.data()));
   ::_exit(1);
-}
-
-constexpr std::size_t width = 80, indent = 24;
-
-/// Words in lines, those after the first indented.
-std::string folded(const std::string& text)
-{
-  std::string result;
-  std::size_t column = indent;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    if (column > indent && column + 1 + (end - at) > width) {
-      result += "\n" + std::string(indent, ' ');
-      column = indent;
-    } else if (column > indent) {
-      result += ' ';
-      ++column;
-    }
-    result += text.substr(at, end - at);
-    column += end - at;
-    at = end + 1;
-  }
-  return result;
 }
 
 /// A line for each check, on the rank that prints.
@@ -84,7 +62,7 @@ class Table {
     const bool bad = outcome[0] == 'F';
     if (!prints_ || (quiet_ && !bad)) return;
     std::FILE* const to = quiet_ ? stderr : stdout;
-    fmt::print(to, "  {:<6}  {:<14}{}\n", outcome, name, folded(found));
+    fmt::print(to, "  {:<6}  {:<14}{}\n", outcome, name, folded(found, 24));
     std::fflush(to);
   }
 

@@ -12,27 +12,17 @@
 #include <array>
 #include <chrono>
 
-#include <unistd.h>
-
 namespace mpm {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Bytes of memory of this machine, of all ranks on it.
-double memory_of_node()
-{
-  return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
-}
-
-/// On every node. What sorting and messages take beside the columns is left to the other half.
+/// What sorting and messages take beside the columns is left to the other half.
 template <int Dim>
 bool fits_in_memory(const Preparation<Dim>& preparation)
 {
-  const double share = preparation.plan.bytes() / ranks_of(preparation.comm);
-  const double of_node = share * ranks_on_this_node(preparation.comm) / memory_of_node();
-  return largest_over_ranks(preparation.comm, of_node) < 0.5;
+  return share_of_memory(preparation) < 0.5;
 }
 
 double bytes_of(const MemoryArchive& state)

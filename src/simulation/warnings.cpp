@@ -59,6 +59,26 @@ void look_at_growth(const micrograph::Specimen<Dim>& specimen, Warnings& warning
 }
 
 template <int Dim>
+void look_at_density(const micrograph::Specimen<Dim>& specimen, Warnings& warnings)
+{
+  if (!specimen.picture()) return;
+  if (specimen.particles() == specimen.locations())
+    warnings.push_back(
+        "all of the picture is wall: there is no lumen to close. Look at specimen.threshold and "
+        "specimen.wall, and at the picture.");
+  if (specimen.picture()->aim == 0) return;
+  const double aim = specimen.picture()->aim;
+  const double found = double(specimen.particles()) / double(specimen.locations());
+  constexpr double tolerated = 0.005;
+  if (std::abs(found - aim) <= tolerated) return;
+  warnings.push_back(fmt::format(
+      "the relative density is {:.3g}, not the {:.3g} that specimen.threshold asks for: "
+      "no threshold comes nearer, as pieces that are removed come and go as wholes. "
+      "Lower specimen.remove_specks, or refine grid.cells.",
+      found, aim));
+}
+
+template <int Dim>
 void look_at_pieces(const micrograph::Specimen<Dim>& specimen, Warnings& warnings)
 {
   if (!specimen.picture() || specimen.picture()->unconnected == 0) return;
@@ -100,6 +120,19 @@ void look_at_reach(const scene::Scene& scene, const micrograph::Specimen<Dim>& s
         1e3 * travel, unmet, specimen.particles(), 1e3 * gap));
 }
 
+/// With a piston the end is known once the specimen is.
+template <int Dim>
+void look_at_snapshots(const scene::Scene& scene, const Layout<Dim>& layout)
+{
+  const std::vector<double>& times = scene.output.snapshot_times;
+  for (std::size_t k = 0; k < times.size(); ++k)
+    if (times[k] > layout.end_time * (1 + 1e-9))
+      micrograph::throw_in_scene(
+          scene, fmt::format("output.snapshots.times[{}] is {:.4g} s (the run ends at {:.4g} s). "
+                             "Lower it or raise loading.strain.",
+                             k, times[k], layout.end_time));
+}
+
 /// Bodies in one velocity field touch before they meet.
 template <int Dim>
 void look_at_contact(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
@@ -116,6 +149,22 @@ void look_at_contact(const scene::Scene& scene, const micrograph::Specimen<Dim>&
       "cells meet where they are, and wood comes to the same error in a fraction of the run time "
       "(docs/formulations.md).",
       early * specimen.size()[axis] / layout.geometry.spacing[axis], 100 * early));
+}
+
+template <int Dim>
+void look_at_bodies_in_contact(const scene::Scene& scene, const micrograph::Specimen<Dim>& specimen,
+                               Warnings& warnings)
+{
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
+    for (const std::string& name : scene.contacts[k].between) {
+      const auto material = std::ranges::find(scene.materials, name, &scene::Material::name);
+      const auto index = std::size_t(material - scene.materials.begin());
+      if (index < scene.materials.size() && specimen.particles_of_material()[index] == 0)
+        warnings.push_back(fmt::format(
+            "contact[{}] is between {} and {}, and there are no particles of {}: it has no effect. "
+            "Look at the picture and the shapes.",
+            k, scene.contacts[k].between[0], scene.contacts[k].between[1], name));
+    }
 }
 
 template <int Dim>
@@ -207,6 +256,7 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
   const bool on_a_grid = !is_total_lagrangian(scene.numerics);
   if (on_a_grid) look_at_thin_walls(scene, specimen, share, warnings);
   look_at_growth(specimen, warnings);
+  look_at_density(specimen, warnings);
   look_at_pieces(specimen, warnings);
   look_at_speed(scene, specimen, layout, warnings);
   if (on_a_grid) {
@@ -214,7 +264,9 @@ std::vector<std::string> warnings_of(const scene::Scene& scene,
     look_at_locking(scene, warnings);
     look_at_flight(scene, layout, warnings);
   }
+  look_at_bodies_in_contact(scene, specimen, warnings);
   if (const auto* loading = std::get_if<scene::Loading>(&scene.motion)) {
+    look_at_snapshots(scene, layout);
     micrograph::Gaps gaps = micrograph::gaps_along(specimen, std::span(scene.materials),
                                                    axis_of(loading->piston), share);
     if (on_a_grid) look_at_contact(scene, specimen, layout, gaps.early_contact, warnings);

@@ -4,7 +4,11 @@ import itertools
 import math
 import os
 
-import matplotlib
+from mpm_par.matplotlib_files import keep_out_of_home
+
+keep_out_of_home()
+
+import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
 

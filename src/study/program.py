@@ -61,8 +61,9 @@ class Program:
         return words
 
     def check(self, scene, assignments):
-        """What mpm_par finds wrong with this scene, a line each; none if it would run."""
-        checked = subprocess.run(self._words(scene, assignments) + ["--check"],
+        """What mpm_par finds wrong with this scene as it reads it and lays it out, a line each; none
+        if there is nothing. It makes no step."""
+        checked = subprocess.run(self._words(scene, assignments) + ["--check", "--quiet"],
                                  capture_output=True, text=True)
         return checked.stderr.splitlines() if checked.returncode else []
 

@@ -149,7 +149,8 @@ def all_cases():
                        ("numerics.contact_stiffness", "-1"), ("numerics.ranks", "[-1, 1]"),
                        ("numerics.ranks", "[7, 9]"), ("numerics.repartition_interval", "-1"),
                        ("output.history_lines", "0"), ("output.history_lines", "-3"), ("steps", "0"), ("steps", "-1"),
-                       ("output.snapshots.strains", "[2]"), ("output.checkpoints.steps", "1"),
+                       ("output.snapshots", "{strains: [2]}"), ("output.snapshots", "{times: [1 s]}"),
+                       ("output.checkpoints", "{keep: 3}"), ("output.checkpoints.steps", "1"),
                        ("output.checkpoints.keep", "0"), ("output.checkpoints.wall_time", "0 s"),
                        ("specimen.crop", "[15, 15, 10, 10]"), ("specimen.crop", "[0, 0, 0, 0]"),
                        ("specimen.crop", "[-1, 0, 5, 5]")]:
@@ -175,6 +176,11 @@ def all_cases():
              replace=[("specimen:", "materials: [{name: a, law: rigid}]\nspecimen:")]))
     add(Case("picture and shapes", ("scene.yaml", "shapes"),
              replace=[("  threshold: 100\n", "  shapes: [{disc: {centre: [0 m, 0 m], radius: 1 m}}]\n")]))
+    for name, text in [("quote", GOOD.replace("A block", '"A block')),
+                       ("single quote", GOOD.replace("A block", "'it''s a block")),
+                       ("quote with a backslash", GOOD.replace("A block", '"A block\\"'))]:
+        add(Case(f"open {name}", ("scene.yaml:1:8", "nothing closes the quote"), scene=text))
+    add(Case("a scene of megabytes", ("scene.yaml", "bytes", "1000000"), scene=GOOD + "# wood\n" * 300000))
     add(Case("cells and spacing", ("scene.yaml", "spacing"),
              replace=[("grid: {cells: [10, 10]}", "grid: {cells: [10, 10], spacing: [1 um, 1 um]}")]))
     # ---- YAML
@@ -183,7 +189,6 @@ def all_cases():
                        ("tabs", GOOD.replace("  micrograph", "\tmicrograph")),
                        ("wrong indent", GOOD.replace("  pixel_size", "   pixel_size")),
                        ("open bracket", GOOD.replace("[10, 10]", "[10, 10")),
-                       ("open quote", GOOD.replace("A block", '"A block')),
                        ("unknown alias", GOOD.replace("10 m/s", "*speed")),
                        ("alias of itself", "a: &a [*a]\n" + GOOD), ("merge of nothing", "<<: *none\n" + GOOD),
                        ("a tag", GOOD.replace("10 m/s", "!!binary abc=")),
@@ -289,7 +294,12 @@ def all_cases():
     add(Case("failure without total Lagrangian", ("failure",),
              settings=["numerics.formulation=updated_lagrangian", "material.failure={stretch: 2}"]))
     add(Case("rigid specimen", ("material.law",), settings=["material={law: rigid}"]))
-    add(Case("snapshots beyond the end", ("snapshots",), settings=["output.snapshots.strains=[0 %, 50 %]"]))
+    add(Case("snapshots beyond the end", ("snapshots",), settings=["output.snapshots={strains: [0 %, 50 %]}"]))
+    add(Case("checkpoints by a strain that is not there", ("output.checkpoints.strain", "wall_time"),
+             replace=[("loading: {piston: right, speed: 10 m/s, strain: 2 %}", "free_motion: {end_time: 1 us}")],
+             settings=["output.checkpoints={strain: 5 %}"]))
+    add(Case("walls by bands and by brightness", ("specimen.wall",),
+             settings=["specimen.wall=dark", "specimen.bands=[{from: 100, to: 256, material: cell_wall}]"]))
     add(Case("formula of unknown names", ("initial_velocity",),
              settings=["specimen.initial_velocity=[foo(x) m/s, 0 m/s]"]))
     add(Case("formula that does not end", ("initial_velocity",),
@@ -304,6 +314,8 @@ def all_cases():
                               ("restart of what is none", ["--restart", "wood.h5"], "wood.h5"),
                               ("restart and overwrite", ["--restart", "--overwrite"], "--overwrite")]:
         add(Case(f"command line: {name}", (says,), arguments=words, files={"wood.h5": png()}))
+    add(Case("command line: restart of no checkpoint", ("--restart is none.yaml", ".h5"),
+             arguments=["--restart=none.yaml"]))
     add(Case("scene that is not there", ("none.yaml",), file="none.yaml"))
     add(Case("scene that is a folder", ("folder",), file="folder", files={"folder/a": b""}))
     return cases

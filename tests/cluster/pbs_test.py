@@ -25,6 +25,7 @@ asked = {{"words": sys.argv[1:], "script": script,
 with open("asked.json", "x") as file:
     json.dump(asked, file)
 """
+PETSC_LOG = "PETSc Performance Summary"
 
 
 class PbsTest(unittest.TestCase):
@@ -69,8 +70,9 @@ class PbsTest(unittest.TestCase):
         return asked
 
     def goes_on(self, script):
-        arguments = {"ARGUMENTS": "--set 'title=The ring, crushed' --overwrite"}
+        arguments = {"ARGUMENTS": "--set 'title=The ring, crushed' -log_view --overwrite"}
         said = self.run_it(script, 12, status=0, **arguments)
+        self.assertIn(PETSC_LOG, said)
         asked = self.asked()
         self.assertTrue(asked, said)
         self.assertEqual(asked["script"], str(ROOT / "jobscripts" / script))
@@ -81,7 +83,9 @@ class PbsTest(unittest.TestCase):
         self.scene.write_text(RING + f"steps: {int(checkpoint.stem) + 200}\n")
         said = self.run_it(script, 13, status=0, **{**asked["environment"], "TIME_LIMIT": "1 h"})
         self.assertIn(f"goes on from results/ring-12/checkpoints/{checkpoint.name}", said)
+        self.assertIn(PETSC_LOG, said)
         self.assertIsNone(self.asked())
+        self.assertEqual(list(results.glob("begun_by_job_*")), [])
         expect_same_as_in_one_go(self, self.scene, results, 2, of=files_of)
         self.assertIn("The ring, crushed", (results / "scene.yaml").read_text())
 

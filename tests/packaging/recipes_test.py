@@ -3,19 +3,27 @@ import pathlib
 import re
 import shlex
 import subprocess
+import sys
 import unittest
 
 ROOT = pathlib.Path(__file__).parents[2]
+sys.path.append(str(ROOT / "src" / "python"))
+from mpm_par.report.__main__ import PACKAGES  # noqa: E402
+
 RECIPE = ROOT / "packaging/spack/packages/mpm-par/package.py"
 DEFINITION = ROOT / "packaging/apptainer/mpm_par.def"
 TOP = (ROOT / "CMakeLists.txt").read_text()
 TYPES = (ROOT / "cmake/build_types.cmake").read_text()
+STUDY = (ROOT / "src/study/CMakeLists.txt").read_text()
+REPORT = (ROOT / "src/python/CMakeLists.txt").read_text()
 # What CMake asks for, by Spack's name; pkg-config and Python are tools.
 IN_SPACK = {"MPI": "mpi", "PETSc": "petsc", "HDF5": "hdf5", "metis.h": "metis", "Eigen3": "eigen",
             "yaml-cpp": "yaml-cpp", "CLI11": "cli11", "fmt": "fmt", "spdlog": "spdlog",
             "udunits": "udunits", "muparser": "muparser", "TIFF": "libtiff",
             "stb_image.h": "stb", "ZLIB": "zlib-api",
             "pugixml": "pugixml", "nlohmann_json": "nlohmann-json", "PkgConfig": "pkgconfig"}
+# What the report imports, by Spack's name where that is not the module's own.
+MODULES_IN_SPACK = {"PIL": "py-pillow", "yaml": "py-pyyaml"}
 
 
 class Recorded:
@@ -66,8 +74,8 @@ class Recipes(unittest.TestCase):
             if version and name != "MPI":
                 self.assertIn(f"@{version}:", needs[IN_SPACK[name]])
         others = set(needs) - set(IN_SPACK.values())
-        self.assertEqual(others, {"c", "cxx", "cmake", "python", "py-pyyaml", "py-numpy",
-                                  "py-matplotlib"})
+        imported = {MODULES_IN_SPACK.get(module, f"py-{module}") for module in PACKAGES}
+        self.assertEqual(others, {"c", "cxx", "cmake", "python"} | imported)
         minimum = re.search(r"cmake_minimum_required\(VERSION ([\d.]+)", TOP)
         self.assertIn(f"@{minimum[1]}:", needs["cmake"])
 
@@ -77,7 +85,7 @@ class Recipes(unittest.TestCase):
         self.assertEqual(recipe.versions, [version])
         vectors = re.search(r"STRINGS (native[\w ]*)\)", TYPES)[1]
         self.assertEqual(sorted(recipe.variants["vector"]["values"]), sorted(vectors.split()))
-        listed = TOP + TYPES + (ROOT / "src/study/CMakeLists.txt").read_text()
+        listed = TOP + TYPES + STUDY + REPORT
         for text in RECIPE, DEFINITION:
             for option in re.findall(r"\bMPM_\w+", text.read_text()):
                 self.assertIn(option, listed)
@@ -90,7 +98,8 @@ class Recipes(unittest.TestCase):
         self.assertIn("sh jobscripts/install_packages.sh --without-pictures\n", text)
         installed = [word for line in re.findall(r"apt-get install (.*)", text)
                      for word in shlex.split(line) if not word.startswith(("-", "/"))]
-        self.assertEqual(set(installed) - listed, set())
+        self.assertEqual(set(installed), set(PACKAGES.values()))
+        self.assertLessEqual(set(installed), listed)
         [files] = re.findall(r"%files\n +(.*)\n", text)
         *sources, target = files.split()
         for name in sources:
@@ -104,6 +113,13 @@ class Recipes(unittest.TestCase):
             subprocess.run(["sh", "-n"], input=section, check=True, text=True)
         stages = re.findall("^Bootstrap: docker\nFrom: debian:12\nStage: (.*)\n", text, re.M)
         self.assertEqual(stages, ["build", "final"])
+
+    def test_what_a_study_imports_is_among_what_the_report_does(self):
+        def looked_for(text):
+            return set(re.search(r'mpm_find_python\(\w+ "([^"]+)"', text)[1].split(", "))
+
+        self.assertEqual(looked_for(REPORT), set(PACKAGES))
+        self.assertLessEqual(looked_for(STUDY), set(PACKAGES))
 
 
 if __name__ == "__main__":

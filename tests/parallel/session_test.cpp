@@ -77,6 +77,24 @@ TEST(Agreement, MessagesOfSeveralLinesAndNoneStayWhole)
   }
 }
 
+TEST(Endings, AreWaitedForAsLongAsAskedFor)
+{
+  MPI_Comm together, apart;
+  MPI_Comm_dup(MPI_COMM_WORLD, &together);
+  MPI_Comm_dup(MPI_COMM_WORLD, &apart);
+  EXPECT_TRUE(all_arrive(together, 60));
+  // Rank 0 comes when the others have given up.
+  if (rank() > 0) {
+    EXPECT_FALSE(all_arrive(apart, 0.05));
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank() == 0) {
+    EXPECT_TRUE(all_arrive(apart, 60));
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  MPI_Comm_free(&together);  // the other one's barrier is still under way on some ranks
+}
+
 TEST(SumsOverRanks, GiveEveryRankTheSame)
 {
   std::vector<double> values{1.5, double(rank())};

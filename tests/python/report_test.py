@@ -233,6 +233,22 @@ class Report(ProgramTest):
         self.assertIn("no line of values yet", run.stderr)
         self.assertFalse((folder / "report.html").exists())
 
+    def test_leaves_no_file_outside_the_folder_of_results(self):
+        mpm_par(scene("confined_block"), "--output", self.folder / "results", "--quiet",
+                *set_options(["steps=60", "output.history_lines=5", "output.snapshots=0"]))
+        home, scratch, named = (self.folder / name for name in ("home", "scratch", "named"))
+        home.mkdir()
+        scratch.mkdir()
+        bare = {name: value for name, value in os.environ.items()
+                if name != "MPLCONFIGDIR" and not name.startswith("XDG_")}
+        places = {"HOME": str(home), "TMPDIR": str(scratch)}
+        for own in {}, {"MPLCONFIGDIR": str(named)}:
+            run = subprocess.run([REPORT, self.folder / "results"], capture_output=True, text=True,
+                                 env={**bare, **places, **own}, timeout=120)
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+            self.assertEqual([*home.iterdir(), *scratch.iterdir()], [])
+        self.assertTrue(list(named.iterdir()))  # the user's own place
+
     def test_help_fits_the_terminal(self):
         run = mpm_report("--help")
         self.assertEqual(run.returncode, 0)

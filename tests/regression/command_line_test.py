@@ -2,10 +2,16 @@
 
 Every message is looked for on two ranks: each must be there exactly once.
 """
+import os
+import pathlib
+import resource
+import signal
+import subprocess
 import unittest
 
-from program import History, ProgramTest, mpm_par, scene, summary
+from program import History, ProgramTest, mpm_par, scene, seconds, start, summary
 
+WOOD = pathlib.Path(__file__).parents[2] / "inputs" / "wood" / "poplar_radial.yaml"
 SHORT = ["--set", "loading.strain=0.05 %"]
 
 
@@ -56,6 +62,53 @@ class CommandLine(ProgramTest):
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertEqual((self.folder / "first/history.csv").read_text(),
                          (self.folder / "again/history.csv").read_text())
+
+    def test_effective_scene_names_what_the_program_chose(self):
+        (self.folder / "wood.yaml").write_text(
+            f"specimen: {{micrograph: {WOOD.parent / 'poplar.bmp'}, image_size: [0.802 mm, 0.524 mm]}}\n"
+            "loading: {piston: right, speed: 10 m/s}\nsteps: 20\n")
+        first = self.run_here("wood.yaml", "-o", "first", ranks=1)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        effective = (self.folder / "first/scene.yaml").read_text()
+        for chosen in ("cells: [150, 98]", "contact_stiffness: 2", "mass_scaling: 0.8", "cfl: ", "ramp_time: "):
+            self.assertIn(chosen, effective)
+        again = self.run_here("first/scene.yaml", "-o", "again", ranks=1)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual((self.folder / "first/history.csv").read_text(),
+                         (self.folder / "again/history.csv").read_text())
+
+    def test_a_signal_before_the_run_begins_is_taken_down(self):
+        """SIGUSR1 as soon as the program looks for it: while MPI starts, or the scene is read."""
+        run = start(scene("confined_block"), "--output", self.folder / "here", "--set", "grid.cells=[200, 100]")
+        caught = 1 << (signal.SIGUSR1 - 1)
+        status = pathlib.Path(f"/proc/{run.pid}/status")
+        while run.poll() is None:
+            line = next(line for line in status.read_text().splitlines() if line.startswith("SigCgt"))
+            if int(line.split()[1], 16) & caught:
+                break
+        run.send_signal(signal.SIGUSR1)
+        _, errors = run.communicate(timeout=seconds(120))
+        self.assertEqual(run.returncode, 75, errors)
+        self.assertIn("Ended after step 20", errors)
+        self.assertTrue((self.folder / "here/checkpoints/000000000020.h5").exists())
+
+    def test_memory_that_is_not_there_is_said_before_the_run(self):
+        limit = 3 << 30
+
+        def within(file, cells):
+            return subprocess.run([os.environ["MPM_PAR"], file, "--quiet", "-o", "here", "--set", f"grid.cells={cells}"],
+                                  cwd=self.folder, capture_output=True, text=True, timeout=seconds(120),
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+
+        if seconds(1) > 1:
+            self.skipTest("sanitizers reserve terabytes")
+        for file, cells, says in ((WOOD, "[20000, 13000]", "which take"),
+                                  (scene("confined_block"), "[5000, 2000]", "of memory and more")):
+            run = within(file, cells)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertIn(says, run.stderr)
+            self.assertIn("fewer", run.stderr)
+        self.assertEqual(self.files(), [])
 
     def test_quiet_leaves_warnings_and_errors_alone(self):
         for words in SHORT, ["--check"]:

@@ -24,6 +24,11 @@ def mpm_par(*arguments, ranks=1, folder=None, timeout=240):
                           timeout=seconds(timeout))
 
 
+def unfolded(text):
+    """A plan, and what follows it, with the lines in one that were folded at 80 columns."""
+    return text.replace("\n" + 21 * " ", " ")
+
+
 def start(*arguments, ranks=1):
     """A run that goes on meanwhile; on one rank without the launcher, which would stand between it and signals."""
     command = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks)] if ranks > 1 else []

@@ -53,6 +53,20 @@ class ResultsFolder(ProgramTest):
             self.refused(output=alone)
             self.assertEqual(all_of(alone), {name: b"something"})
 
+    def test_states_and_pictures_of_another_run_stay_as_well(self):
+        self.good(settings=[*WHOLE, "output.snapshots=3"])
+        folder = self.results_of_first
+        for name in [path.name for path in folder.iterdir() if path.is_file() and path.suffix != ".xdmf"]:
+            (folder / name).unlink()
+        before = all_of(folder)
+        self.assertIn("holds the results of a run", self.refused())
+        for path in folder.glob("*.xdmf"):
+            path.unlink()
+        self.assertIn("holds the results of a run", self.refused())
+        self.assertEqual(set(all_of(folder)) | {name for name in before if name.endswith(".xdmf")}, set(before))
+        self.good("--overwrite", settings=[*WHOLE, "output.snapshots=0"])
+        self.assertFalse((folder / "snapshots").exists())
+
     def test_check_needs_no_folder(self):
         self.good()
         before = all_of(self.results_of_first)
@@ -112,7 +126,7 @@ class ResultsFolder(ProgramTest):
         shutil.copy(self.bar, own / "scene.yaml")
         before = all_of(own)
         for words in [], ["--overwrite"]:
-            self.assertIn("the run reads this file, and would write its scene.yaml there",
+            self.assertIn("the run reads this file, and would put its results in its place",
                           self.refused(*words, file=own / "scene.yaml", output=own))
         self.assertEqual(all_of(own), before)
         # An effective scene is what it would be replaced by.

@@ -3,7 +3,7 @@ import pathlib
 import re
 import unittest
 
-from program import History, ProgramTest, mpm_par, set_options, summary
+from program import History, ProgramTest, mpm_par, set_options, summary, unfolded
 
 RING = pathlib.Path(__file__).parents[2] / "inputs" / "benchmarks" / "crushed_ring.yaml"
 SCENE = """
@@ -65,14 +65,14 @@ class Warnings(ProgramTest):
         options = set_options(settings)
         check = mpm_par("--check", file, *options)
         self.assertEqual(check.returncode, 0, check.stderr)
-        said = [line.split("warning", 1)[1].strip() for line in check.stdout.splitlines()
+        said = [line.split("warning", 1)[1].strip() for line in unfolded(check.stdout).splitlines()
                 if line.startswith("  warning")]
         folder = self.folder / "results"
         run = mpm_par(file, "--output", folder, "--overwrite", *options, ranks=2)
         self.assertEqual(run.returncode, 0, run.stderr + run.stdout)
         self.assertEqual(summary(folder)["warnings"], said)
         for warning in said:
-            self.assertIn(warning, run.stdout)
+            self.assertIn(warning, unfolded(run.stdout))
         return said
 
     def test_quiet_leaves_them_alone_on_the_terminal(self):
@@ -141,7 +141,7 @@ class Warnings(ProgramTest):
     def check_only(self, *settings):
         check = mpm_par("--check", self.scene_of(WHOLE), *set_options(settings))
         self.assertEqual(check.returncode, 0, check.stderr)
-        return [line for line in check.stdout.splitlines() if line.startswith("  warning")]
+        return [line for line in unfolded(check.stdout).splitlines() if line.startswith("  warning")]
 
     def test_particles_that_the_piston_never_meets(self):
         # 0.4 mm of empty layers before the second box of 6 x 20 cells of 4 particles.
@@ -183,6 +183,41 @@ class Warnings(ProgramTest):
         self.assertIn("specimen.remove_unconnected: true", pieces)
         self.assertIn("closes gaps", early)
         self.assert_only(self.warnings_of(file, "specimen.remove_unconnected=true"), "closes gaps")
+
+    def test_a_picture_without_lumens(self):
+        (self.folder / "picture.bmp").write_bytes(gray_bmp([[255] * 40] * 40))
+        file = self.folder / "picture.yaml"
+        file.write_text("specimen: {micrograph: picture.bmp, pixel_size: 25 um}\n"
+                        "grid: {cells: [20, 20]}\nsteps: 2\noutput: {snapshots: 0}\n"
+                        "loading: {piston: right, speed: 1 m/s}\n")
+        self.assert_only(self.warnings_of(file), "all of the picture is wall", "specimen.threshold")
+
+    def test_a_density_that_no_threshold_gives(self):
+        """Two squares side by side, of which one goes as a whole."""
+        rows = [[0] * 40 for _ in range(40)]
+        for j in range(10, 30):
+            for i in range(4, 36):
+                if not 18 <= i < 22:
+                    rows[j][i] = 200 + i
+        (self.folder / "picture.bmp").write_bytes(gray_bmp(rows))
+        file = self.folder / "picture.yaml"
+        file.write_text("specimen: {micrograph: picture.bmp, pixel_size: 25 um, remove_unconnected: true,\n"
+                        "  threshold: {target_relative_density: 0.22}}\n"
+                        "grid: {cells: [20, 20]}\nsteps: 2\noutput: {snapshots: 0}\n"
+                        "loading: {piston: right, speed: 1 m/s}\n")
+        # Each square is 0.175 of the picture.
+        self.assert_only(self.warnings_of(file), "relative density is 0.175, not the 0.22",
+                         "specimen.remove_specks")
+        self.assertEqual(self.warnings_of(file, "specimen.threshold={target_relative_density: 0.17}"), [])
+
+    def test_contact_of_what_is_not_there(self):
+        file = self.scene_of(WHOLE)
+        file.write_text(file.read_text().replace("material:", "materials:\n - {name: wood, ", 1)
+                        .replace("{law", "law", 1).replace("kg/m^3}", "kg/m^3}\n - {name: steel, law: isotropic, "
+                        "youngs_modulus: 10 GPa, poisson_ratio: 0.3, density: 1000 kg/m^3}", 1)
+                        + "contact: [{between: [wood, steel]}]\n")
+        file.write_text(file.read_text().replace("1 mm]}", "1 mm]}\n      material: wood"))
+        self.assert_only(self.warnings_of(file), "no particles of steel", "no effect")
 
     def test_what_has_happened_in_a_run(self):
         """A ring that folds upon itself, between plates of which one moves."""

@@ -15,7 +15,9 @@ import itertools
 import os
 import pathlib
 import platform
+import re
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -72,7 +74,7 @@ def carry_out(trials):
     return outcomes, lost, missing
 
 
-def table(outcomes, lost, missing, seconds):
+def table(program, outcomes, lost, missing, seconds):
     """Markdown."""
     lines = ["| fault | tried | before the end | status | runs lost | most work to do again |",
              "|---|---|---|---|---|---|"]
@@ -84,12 +86,20 @@ def table(outcomes, lost, missing, seconds):
         lines.append(f"| {fault} | {len(found) + gone} | {len(hit) + gone} | {states} | {gone} | "
                      f"{100 * most:.1f} % |")
     tried, gone = (sum(map(len, some.values())) for some in (outcomes, lost))
-    lines += ["", f"{tried + gone} trials in {seconds / 60:.0f} minutes on {os.cpu_count()} cores of "
+    lines += ["", f"{program}: {tried + gone} trials in {seconds / 60:.0f} minutes on {os.cpu_count()} cores of "
               f"{platform.machine()}; runs lost: **{gone}**."]
     lines += [f"- lost: {fault}, {why}" for fault in lost for why in lost[fault]]
     if missing:
         lines += ["", "Not tried for want of " + ", ".join(sorted(missing)) + "."]
     return "\n".join(lines) + "\n"
+
+
+def revision(mpm_par):
+    """`mpm_par 1.2.3 (438b61606e1d)`"""
+    said = subprocess.run([mpm_par, "--version"], capture_output=True, text=True, check=True).stdout
+    [commit] = re.findall(r"^git +(\S+)", said, re.M)
+    name = " ".join(said.splitlines()[0].split())
+    return f"{name} ({commit[:12]}{'-dirty' * commit.endswith('-dirty')})"
 
 
 def main():
@@ -110,7 +120,7 @@ def main():
         trials = list(plan(faults, asked.kills, asked.others))
         faults.random.shuffle(trials)
         outcomes, lost, missing = carry_out(trials)
-        text = table(outcomes, lost, missing, time.monotonic() - begin)
+        text = table(revision(asked.mpm_par), outcomes, lost, missing, time.monotonic() - begin)
     print(text)
     if asked.write:
         before, rest = PAGE.read_text().split(BEGIN)

@@ -122,6 +122,17 @@ class WholeStudy(StudyTest):
         self.assertIn("git", found["mpm_par"])
         self.assertFalse(list(self.folder.glob("output/**/*.part")))
 
+    def test_leaves_no_file_in_the_home_folder(self):
+        home = self.folder / "home"
+        home.mkdir()
+        places = {name: value for name, value in os.environ.items()
+                  if name != "MPLCONFIGDIR" and not name.startswith("XDG_")}
+        study = self.write(STUDY.replace("[[8, 2], [16, 4], [32, 8]]", "[[8, 2]]"))
+        run = mpm_study(study, "--output", self.folder / "output", env={**places, "HOME": str(home)})
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertTrue((self.folder / "output" / "error_stress.svg").exists())
+        self.assertEqual(list(home.iterdir()), [])
+
     def test_what_is_done_is_not_done_again(self):
         output = self.folder / "output"
         text = STUDY.replace("[[8, 2], [16, 4], [32, 8]]", "[[8, 2]]")

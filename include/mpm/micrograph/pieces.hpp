@@ -30,6 +30,8 @@ struct PieceRules {
   std::int64_t fewest_locations = 0;
   bool only_largest = false;  ///< of those that are large enough; the first of equals
   PeriodicAxes periodic{};
+
+  bool remove_something() const { return fewest_locations > 1 || only_largest; }
 };
 
 /// Locations [begin, end) of a row along x; rows are numbered upwards, in space layer by layer.

@@ -18,6 +18,7 @@ struct PictureFigures {
   double threshold = 0;           ///< gray level that parts the pixels; 0 with bands
   double location_threshold = 0;  ///< that parts the mean grays of the locations; 0 with bands
   double density = 0;             ///< share of the pixels that are wall
+  double aim = 0;                 ///< relative density that the scene asks for; 0 if it does not
   /// m by which walls were made thicker (below 0: thinner) all around, where no threshold gives the
   /// density aimed at; the thresholds are then levels of the distance picture (grown_walls.hpp).
   double growth = 0;
@@ -52,12 +53,21 @@ class Section {
   const GrayImage& image() const { return image_; }
 
  private:
+  struct Parting {
+    double threshold;
+    double missed;  ///< of the share of wall that it was to part, by more than half a location
+  };
   /// The threshold that gives the relative density, in the picture or, where none does, in that of
   /// the distances from its walls' surface, which takes the picture's place (not of a stack).
-  /// `means`: of `part`. Collective.
+  /// `means`: of this part's slab, whose materials `held` has room for. Collective.
   double threshold_of_density(double target, const scene::Micrograph& micrograph,
-                              const std::array<double, 2>& size, const IndexBox<Dim>& part,
-                              std::vector<double>& means, const Share& share);
+                              const std::array<double, 2>& size, const PieceRules& rules,
+                              Lattice<Dim>& held, std::vector<double>& means, const Share& share);
+  /// The threshold whose walls, less the pieces that the rules remove, are nearest to `target`.
+  /// Collective.
+  Parting parting_that_leaves(double target, const PieceRules& rules, scene::Wall wall,
+                              Lattice<Dim>& held, std::span<const double> means,
+                              const Share& share) const;
   /// `held`: this part's slab, `filled`: locations of all parts. Collective.
   void remove_pieces(const PieceRules& rules, Lattice<Dim>& held, double filled,
                      const Share& share);

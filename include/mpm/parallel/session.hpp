@@ -47,4 +47,9 @@ void agree(MPI_Comm comm, const std::function<void()>& action);
 /// The same for what rank 0 does alone.
 void on_rank_zero(MPI_Comm comm, const std::function<void()>& action);
 
+/// Whether all ranks come here within so many seconds, as they do after an error that they have
+/// agreed on; after one that this rank alone has met the others may wait for it elsewhere.
+/// `comm` serves for nothing else.
+bool all_arrive(MPI_Comm comm, double seconds);
+
 }  // namespace mpm

@@ -64,6 +64,7 @@ class History {
   double work_size_ = 0;  ///< J, sum of the sizes
   /// Since the last line, N s along the axis.
   double piston_impulse_ = 0, edge_impulse_ = 0;
+  double least_energy_;  ///< J, over which errors of energy are counted at least
   EnergyMonitor<Dim> energy_;
   double deepest_behind_piston_ = 0;
 };

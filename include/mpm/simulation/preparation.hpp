@@ -27,6 +27,10 @@ struct Preparation {
   scene::Scene effective_scene() const;
 };
 
+/// What the arrays of a run take of the memory of the machine that is filled most. Collective.
+template <int Dim>
+double share_of_memory(const Preparation<Dim>& preparation);
+
 struct StepMeasurement;
 
 /// What will run and what is left out; with a measurement, what it will take, too: the text of

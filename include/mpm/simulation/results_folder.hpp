@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace mpm {
 
@@ -16,8 +17,8 @@ class ResultsFolder {
  public:
   explicit ResultsFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Throws InputError if one of `inputs` stands where a result is to be written and is not the
-  /// effective scene itself.
+  /// Throws InputError if one of `inputs` is a file that a run leaves, and takes away, and is not
+  /// the effective scene itself.
   void expect_no_input(std::span<const std::filesystem::path> inputs,
                        const std::string& effective_scene) const;
   /// Throws InputError if the folder holds the results of a run, or one is writing there.
@@ -37,6 +38,9 @@ class ResultsFolder {
  private:
   void occupy();
   bool holds_a_run() const;
+  /// All that a run leaves, as far as it is there.
+  std::vector<std::filesystem::path> files() const;
+  std::vector<std::filesystem::path> files_of_report() const;
   void remove(const std::filesystem::path& file) const;
   void clear_report() const;
   void clear() const;

@@ -114,6 +114,29 @@ TEST_F(SharedSpecimen, WithoutSpecksAndLoosePieces)
   EXPECT_GT(built(scene_).picture()->removed, 0);
 }
 
+TEST_F(SharedSpecimen, HasTheDensityAimedAtOnceSpecksAndLoosePiecesAreGone)
+{
+  micrograph().remove_specks = 3;
+  micrograph().remove_unconnected = true;
+  micrograph().sampling = scene::Sampling::threshold;
+  const auto missed = [&](double aim) {
+    const Specimen<2> specimen = built(scene_);
+    return std::abs(double(specimen.particles()) - aim * double(specimen.whole().size()));
+  };
+  for (const double aim : {0.28, 0.37, 0.45}) {
+    micrograph().threshold_rule = scene::ThresholdRule::value;
+    double least = 1e9;  // of all thresholds: a loose piece comes and goes as a whole
+    for (micrograph().threshold = 100; micrograph().threshold < 215; micrograph().threshold += 0.25)
+      least = std::min(least, missed(aim));
+    micrograph().threshold_rule = scene::ThresholdRule::target_relative_density;
+    micrograph().target_relative_density = aim;
+    EXPECT_LE(missed(aim), least + 1) << aim;
+    EXPECT_GT(built(scene_).picture()->removed, 0) << aim;
+    EXPECT_EQ(built(scene_).picture()->aim, aim);
+    expect_same_on_any_number_of_parts<2>();
+  }
+}
+
 TEST_F(SharedSpecimen, OfAPictureDrawnOutIntoSpace)
 {
   scene_.dimensions = 3;

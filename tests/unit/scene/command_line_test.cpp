@@ -89,6 +89,12 @@ TEST(CommandLineOptions, ARunGoesOnFromTheNewestCheckpointOrFromAFile)
   EXPECT_TRUE(named.restart);
   EXPECT_EQ(named.checkpoint, "000000000100.h5");
   EXPECT_THAT(named.petsc, ElementsAre("-log_view"));
+  const CommandLine joined = parsed({"--restart=out/000000000100.h5", "a.yaml"});
+  EXPECT_TRUE(joined.restart);
+  EXPECT_EQ(joined.checkpoint, "out/000000000100.h5");
+  EXPECT_EQ(joined.scene, "a.yaml");
+  EXPECT_THAT(refusal({"--restart=b.yaml", "a.yaml"}),
+              HasSubstr("--restart is b.yaml (a checkpoint ends with .h5)"));
   EXPECT_THAT(refusal({"--restart", "--overwrite", "a.yaml"}), HasSubstr("Give one of them"));
 }
 

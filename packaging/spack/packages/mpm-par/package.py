@@ -14,6 +14,7 @@ class MpmPar(CMakePackage):
     variant("vector", default="native", values=("native", "baseline", "avx2", "avx512"),
             multi=False, description="Processors that it is built for")
     variant("study", default=True, description="What mpm_study imports")
+    variant("report", default=True, description="What mpm_report imports")
 
     depends_on("c", type="build")
     depends_on("cxx", type="build")
@@ -36,10 +37,14 @@ class MpmPar(CMakePackage):
     depends_on("pugixml@1.12:")
     depends_on("nlohmann-json@3.11:")
     depends_on("python@3.9:", type=("build", "run"))
-    with when("+study"):
-        depends_on("py-pyyaml", type=("build", "run"))
-        depends_on("py-numpy", type=("build", "run"))
-        depends_on("py-matplotlib", type=("build", "run"))
+    for option in "+study", "+report":
+        with when(option):
+            depends_on("py-pyyaml", type=("build", "run"))
+            depends_on("py-numpy", type=("build", "run"))
+            depends_on("py-matplotlib", type=("build", "run"))
+            depends_on("py-pillow", type=("build", "run"))
+    with when("+report"):
+        depends_on("py-h5py +mpi", type=("build", "run"))  # with the HDF5 of the program
 
     conflicts("%gcc@:11", msg="mpm_par is C++20: GCC 12 is the first that builds it")
 
@@ -47,6 +52,10 @@ class MpmPar(CMakePackage):
         return [
             self.define_from_variant("MPM_VECTOR", "vector"),
             self.define("MPM_BUILD_TESTS", False),
-            self.define("MPM_STUDY_PYTHON", self.spec["python"].command.path
-                        if self.spec.satisfies("+study") else ""),
+            self.define("MPM_STUDY_PYTHON", self.python_for("+study")),
+            self.define("MPM_REPORT_PYTHON", self.python_for("+report")),
         ]
+
+    def python_for(self, option):
+        """The Python that has what this option brings; nothing without it."""
+        return self.spec["python"].command.path if self.spec.satisfies(option) else ""

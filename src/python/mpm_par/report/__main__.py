@@ -6,7 +6,7 @@ import re
 import sys
 import time
 
-from mpm_par import quantities
+from mpm_par import matplotlib_files, quantities
 from mpm_par.problems import ResultsError
 
 DONE, BAD_INPUT, FILE_FAILURE = 0, 2, 4
@@ -162,6 +162,7 @@ def main(words):
         return FILE_FAILURE
     begin = time.monotonic()
     try:
+        matplotlib_files.keep_out_of_home()
         from mpm_par.study import study_folders
         path = (make_of_studies if study_folders(given.folder) else make)(given)
         print(f"report in {path} ({time.monotonic() - begin:.1f} s)")
