@@ -195,7 +195,7 @@ ContactSums RigidWall<Dim>::stored(const Body<Dim>& body, double time) const
 template <int Dim>
 void RigidWall<Dim>::archive(Archive& archive)
 {
-  BoundaryCondition<Dim>::archive(archive);
+  this->archive_reaction(archive);
   if (pushes()) archive.value("push", push_, Over::sum);
   if (rubs()) archive.value("friction_work", friction_work_, Over::sum);
 }

@@ -19,6 +19,11 @@ void Problems::add(const Place& place, const std::string& path, const std::strin
   if (found_.size() < most_kept) found_.push_back({place, path, text});
 }
 
+bool Problems::full() const
+{
+  return found_.size() >= most_kept;
+}
+
 bool Problems::concern(std::string_view path) const
 {
   return std::ranges::any_of(found_, [&](const Problem& problem) {

@@ -73,10 +73,14 @@ class TreeBuilder {
   /// The library takes all that follows a quote that nothing closes for its text.
   void expect_closed(const YAML::Mark& mark, const Place& place) const
   {
-    if (mark.is_null() || std::size_t(mark.pos) >= text_.size()) return;
-    const char quote = text_[std::size_t(mark.pos)];
+    if (mark.is_null()) return;
+    constexpr std::string_view byte_order = "\xEF\xBB\xBF";  // the library does not count it
+    const std::size_t opens =
+        std::size_t(mark.pos) + (text_.starts_with(byte_order) ? byte_order.size() : 0);
+    if (opens >= text_.size()) return;
+    const char quote = text_[opens];
     if (quote != '"' && quote != '\'') return;
-    for (std::size_t k = std::size_t(mark.pos) + 1; k < text_.size(); ++k) {
+    for (std::size_t k = opens + 1; k < text_.size(); ++k) {
       const bool doubled = text_[k] == '\'' && k + 1 < text_.size() && text_[k + 1] == '\'';
       if (quote == '"' ? text_[k] == '\\' : doubled)
         ++k;

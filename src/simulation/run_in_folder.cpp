@@ -55,6 +55,7 @@ class HistoryWriter final : public Observer<Dim> {
       for (const HistoryLine& line : lines) file_->append(history_row(line, kind_));
     });
   }
+  void archive(Archive&) override {}  // its lines are the run's
 
  private:
   MPI_Comm comm_;
@@ -88,6 +89,7 @@ class FolderWriter final : public Observer<Dim> {
       micrograph::write_preview(preparation_.specimen, folder / "specimen.png");
     });
   }
+  void archive(Archive&) override {}
 
  private:
   const Preparation<Dim>& preparation_;
@@ -119,6 +121,7 @@ class ProgressWriter final : public Observer<Dim> {
   {
     if (writes_) progress_.finish();
   }
+  void archive(Archive&) override {}
 
  private:
   bool writes_, quiet_, loaded_ = false;

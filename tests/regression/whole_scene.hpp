@@ -42,6 +42,8 @@ class Witness final : public Observer<2> {
     }
   }
 
+  void archive(Archive&) override {}
+
   std::vector<double> times;
   std::vector<Particle> particles;
 

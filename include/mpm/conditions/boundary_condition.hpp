@@ -50,9 +50,12 @@ class BoundaryCondition {
 
   /// Returns what was booked and starts again from zero.
   Reaction<Dim> take_reaction() { return reaction_.take(); }
-  virtual void archive(Archive& archive) { reaction_.archive(archive); }
+  /// All that it keeps from one step to the next: `archive_reaction`, and what is its own.
+  virtual void archive(Archive& archive) = 0;
 
  protected:
+  void archive_reaction(Archive& archive) { reaction_.archive(archive); }
+
   /// One component of one node follows a wall whose velocity goes from `before` to `after` in this
   /// step. The reaction counts on the node's owner only.
   void constrain(NodeFields<Dim>& fields, LocalIndex node, bool owned, int component, double before,

@@ -24,6 +24,8 @@ class RigidBody final : public BoundaryCondition<Dim> {
                          double dt) override;
   void constrain_gradient(const Nodes<Dim>& nodes, NodeFields<Dim>& fields, double time,
                           double dt) override;
+  /// Where it is follows from the time.
+  void archive(Archive& archive) override { this->archive_reaction(archive); }
 
  private:
   void find_nodes(const Nodes<Dim>& nodes, double time);

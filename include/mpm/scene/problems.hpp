@@ -15,6 +15,9 @@ class Problems {
   /// `path` is the key path concerned; `text` follows the place.
   void add(const Place& place, const std::string& path, const std::string& text);
 
+  /// Whether those that are added now are counted and no more.
+  bool full() const;
+
   /// Whether a problem concerns this path or something below it.
   bool concern(std::string_view path) const;
 

@@ -17,6 +17,7 @@ class FailureSnapshot final : public Observer<Dim> {
   bool wants_last_sound_state() const override { return true; }
   /// Leaves FOLDER/failure/NAME.xdmf and its file.
   std::string failed(const typename Observer<Dim>::State& last_sound) override;
+  void archive(Archive&) override {}
 
  private:
   const Preparation<Dim>& preparation_;

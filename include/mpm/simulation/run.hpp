@@ -39,8 +39,8 @@ class Observer {
   virtual void kept() {}
   /// The run is where it was when a state was kept last: what came after it has not been.
   virtual void went_back(const GoingBack&) {}
-  /// What the observer goes on from, with the run.
-  virtual void archive(Archive&) {}
+  /// What the observer goes on from, with the run: all that it has gathered, or nothing.
+  virtual void archive(Archive&) = 0;
   /// The run goes on from a checkpoint, in place of its start, with these lines behind it.
   virtual void resumed(const std::vector<HistoryLine>& /*lines*/) {}
   /// The run ends with an error. Returns words on what is left behind, for its message.

@@ -53,6 +53,23 @@ TEST_F(SceneFile, IndentedWithTabsIsTold)
               ElementsAre(HasSubstr("YAML does not indent with tabs: use spaces.")));
 }
 
+TEST_F(SceneFile, OfAnotherSystemIsReadAsItIs)
+{
+  const std::string text = "# caf\xC3\xA9\ntitle: \"d\xC3\xA9j\xC3\xA0 vu\"\n" + smallest +
+                           "name: 'it''s'\noutput: {fields: ['stress','velocity']}\n";
+  std::string windows = "\xEF\xBB\xBF";
+  for (const char letter : text) windows += letter == '\n' ? "\r\n" : std::string(1, letter);
+  for (const std::string& written : {text, windows}) {
+    EXPECT_THAT(problems(written), ElementsAre());
+    const Scene scene = read_scene(write("a.yaml", written), {});
+    EXPECT_EQ(scene.title, "d\xC3\xA9j\xC3\xA0 vu");
+    EXPECT_EQ(scene.name, "it's");
+    const std::string open = std::string(written).replace(written.find("vu\""), 3, "vu");
+    EXPECT_THAT(problems(open), ElementsAre("a.yaml:2:8: nothing closes the quote that opens here. "
+                                            "Put another \" behind the text."));
+  }
+}
+
 TEST_F(SceneFile, ThatIsAList)
 {
   EXPECT_THAT(
