@@ -81,8 +81,7 @@ void plan_and_run(const scene::CommandLine& command_line, const scene::Scene& sc
   if (const double share = share_of_memory(preparation); share > 1)
     throw InputError(
         fmt::format("{}: takes {} of memory and more, {:.3g} times what there is. Give fewer "
-                    "grid.cells, or use "
-                    "more machines.",
+                    "grid.cells, or use more machines.",
                     command_line.scene.string(), memory_text(preparation.plan.bytes()), share));
   std::vector<std::filesystem::path> pictures;
   if (scene.specimen.micrograph)

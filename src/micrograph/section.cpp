@@ -72,15 +72,17 @@ double matched(double limit, std::span<const double> pixels, std::span<const dou
   return level_with_share_below(means, double(below) / double(pixels.size()), share);
 }
 
-/// Throws InputError where the machine has too little for what a part holds while it is filled.
-void expect_memory(GlobalIndex locations, int parts)
+/// Throws InputError where a machine has too little for what a part holds while it is filled.
+void expect_memory(GlobalIndex locations, const Share& share)
 {
   constexpr double bytes_per_location = 16;
-  const double bytes = bytes_per_location * double(locations) / parts;
-  if (bytes <= memory_limit()) return;
+  const double bytes = bytes_per_location * double(locations) / share.parts;
+  double lacking = bytes > memory_limit();
+  share.sum({&lacking, 1});
+  if (lacking == 0) return;
   throw InputError(
       fmt::format("grid.cells make {:.3g} locations of particles, which take {} on each rank, and "
-                  "there are {}. Give fewer, or use more ranks on more machines.",
+                  "there are {} here. Give fewer, or use more ranks on more machines.",
                   double(locations), memory_text(bytes), memory_text(memory_limit())));
 }
 
@@ -140,7 +142,7 @@ Section<Dim>::Section(const scene::Scene& scene, Picture picture, const IndexVec
   const scene::Micrograph& micrograph = *scene.specimen.micrograph;
   const IndexBox<Dim> whole{IndexVec<Dim>::Zero(), count};
   Lattice<Dim> held{count, slab(whole, share.part, share.parts), {}, {}};
-  expect_memory(whole.size(), share.parts);
+  expect_memory(whole.size(), share);
   std::vector<double> means = location_means(image_, count, held.part);
   const std::optional<double> aim = aimed_share(scene);
   const bool matches = micrograph.sampling == scene::Sampling::match && !aim;
@@ -223,7 +225,7 @@ typename Section<Dim>::Parting Section<Dim>::parting_that_leaves(
   double lower = target, upper = 1, least_missing = std::numeric_limits<double>::infinity();
   Parting best{};
   int steps = 0;
-  for (double parted = target; upper - lower > enough;) {
+  for (double parted = target;;) {
     const double threshold = threshold_for_density(means, parted, wall, share);
     const Band band = wall_band(threshold, wall);
     const double filled = count_in(means, {&band, 1}, share);
@@ -239,6 +241,7 @@ typename Section<Dim>::Parting Section<Dim>::parting_that_leaves(
     }
     if (!rules.remove_something() || least_missing <= enough) break;
     (missing > 0 ? lower : upper) = parted;
+    if (upper - lower <= enough) break;
     // What is missing is to be added, most often; where a piece comes or goes, halves find it.
     parted += missing;
     if (!(parted > lower && parted < upper && ++steps % 2 == 1)) parted = 0.5 * (lower + upper);
