@@ -107,6 +107,13 @@ void read_and_run(const scene::CommandLine& command_line, Ending& ending)
     plan_and_run<3>(command_line, scene, std::move(picture), ending);
 }
 
+/// All ranks, with the words of this one.
+void end_alone(int status, const std::string& what)
+{
+  fmt::print(stderr, "rank {}: {}\n", rank_of(MPI_COMM_WORLD), what);
+  MPI_Abort(MPI_COMM_WORLD, status);
+}
+
 /// How the program ends after an error: all ranks together, or at once where this one is alone.
 class Endings {
  public:
@@ -123,7 +130,7 @@ class Endings {
     std::fflush(stdout);
     if (rank == 0) fmt::print(stderr, "{}\n", what);
     if (all_arrive(comm_, seconds_of_ending)) return;
-    if (rank != 0) fmt::print(stderr, "rank {}: {}\n", rank, what);
+    if (rank != 0) end_alone(int(status), what);
     MPI_Abort(MPI_COMM_WORLD, int(status));
   }
 
@@ -166,16 +173,12 @@ Ending run(const std::variant<scene::CommandLine, scene::Answer>& asked,
   } catch (const FileError& error) {
     endings.report(ending, ExitStatus::file_failure, error.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(
-        stderr,
-        "rank {}: there is no memory left of {}. Give fewer grid.cells, or use more machines "
-        "(mpm_par --check says what a scene takes).\n",
-        rank_of(MPI_COMM_WORLD), memory_text(memory_limit()));
-    MPI_Abort(MPI_COMM_WORLD, 1);
+    end_alone(1, fmt::format("there is no memory left of {}. Give fewer grid.cells, or use more "
+                             "machines (mpm_par --check says what a scene takes).",
+                             memory_text(memory_limit())));
   } catch (const std::exception& error) {
     // Not foreseen, and perhaps on this rank only: the others must not wait for it.
-    fmt::print(stderr, "rank {}: {}\n", rank_of(MPI_COMM_WORLD), error.what());
-    MPI_Abort(MPI_COMM_WORLD, 1);
+    end_alone(1, error.what());
   }
   return ending;
 }

@@ -25,17 +25,21 @@ bool LawRow::has(std::string_view key) const
   return std::ranges::find(parameters, key, &KindParameter::key) != parameters.end();
 }
 
+std::vector<std::string> laws_there(int dimensions)
+{
+  std::vector<std::string> keywords;
+  for (const LawRow& row : list_of<LawRow>())
+    if (row.is_there(dimensions)) keywords.push_back(row.keyword);
+  return keywords;
+}
+
 template <int Dim>
 std::unique_ptr<Law<Dim>> make_law(const LawRow& law, const ParameterValues& values,
                                    PlaneAssumption plane)
 {
-  const auto there = [](const LawRow& row) {
-    return Dim == 2 ? bool(row.in_plane) : bool(row.in_space);
-  };
-  if (!there(law)) {
+  if (!law.is_there(Dim)) {
     std::string words;
-    for (const LawRow& row : list_of<LawRow>())
-      if (there(row)) words += (words.empty() ? "" : ", ") + row.keyword;
+    for (const std::string& other : laws_there(Dim)) words += (words.empty() ? "" : ", ") + other;
     const std::string reason = !law.deformable() ? "has no stress"
                                : Dim == 2        ? "is there in space only"
                                                  : "is there in the plane only";

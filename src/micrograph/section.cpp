@@ -192,9 +192,8 @@ double Section<Dim>::threshold_of_density(double target, const scene::Micrograph
   if (std::ranges::min(image_.gray) == std::ranges::max(image_.gray)) return found.threshold;
   // Beyond the gray of the walls or of the lumens a threshold parts noise.
   const GrayClasses classes = gray_classes(image_);
-  constexpr double tolerated = 0.005;
   if (found.threshold > classes.dark && found.threshold < classes.bright &&
-      found.missed < tolerated)
+      found.missed < density_tolerance)
     return found.threshold;
   if (image_.slices > 1)
     throw InputError(

@@ -18,17 +18,11 @@ bool has_plastic_strain(const Material& material, Plane plane)
 /// Laws that are not there in the plane, or not in space.
 void check_law(const Checked& checked, const LawRow& law, const std::string& key)
 {
-  if (!law.deformable() || !checked.sound(key)) return;
-  const bool in_space = checked.scene.dimensions == 3;
-  const auto there = [&](const LawRow& row) {
-    return in_space ? bool(row.in_space) : bool(row.in_plane);
-  };
-  if (there(law)) return;
-  std::vector<std::string> others;
-  for (const LawRow& row : list_of<LawRow>())
-    if (there(row)) others.emplace_back(row.keyword);
-  checked.refuse(key, fmt::format("it is there in {} only", in_space ? "the plane" : "space"),
-                 "Use " + alternatives(others));
+  const int dimensions = checked.scene.dimensions;
+  if (!law.deformable() || law.is_there(dimensions) || !checked.sound(key)) return;
+  checked.refuse(key,
+                 fmt::format("it is there in {} only", dimensions == 3 ? "the plane" : "space"),
+                 "Use " + alternatives(laws_there(dimensions)));
 }
 
 void check_failure(const Checked& checked, const Material& material, const std::string& path)

@@ -11,12 +11,12 @@ std::vector<std::string> check_keys(const Given& given, const std::vector<std::s
   std::vector<std::string> meant;
   for (const Entry& entry : given.node.entries) {
     const std::string path = joined(given.path, entry.key);
+    const bool is_known = std::ranges::find(known, entry.key) != known.end();
     if (given.problems.full()) {  // no scene: how many there are is all that is said of the rest
-      if (std::ranges::find(known, entry.key) == known.end())
-        given.problems.add(entry.place, path, "unknown key");
+      if (!is_known) given.problems.add(entry.place, path, "unknown key");
       continue;
     }
-    if (std::ranges::find(known, entry.key) == known.end()) {
+    if (!is_known) {
       const auto nearest = nearest_name(entry.key, known);
       // Under the key it was meant for, so that nobody reports that one as missing.
       given.problems.add(

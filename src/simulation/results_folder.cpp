@@ -163,11 +163,9 @@ void ResultsFolder::clear() const
 {
   for (const std::filesystem::path& file : files()) remove(file);
   std::error_code kept;  // with what else stands there
-  for (const std::filesystem::path& folder : {folder_ / "failure", folder_}) {
+  for (const std::filesystem::path& folder : {folder_, folder_ / "failure"})
     for (const char* part : parts) std::filesystem::remove(folder / part, kept);
-    if (folder != folder_) std::filesystem::remove(folder, kept);
-  }
-  std::filesystem::remove(folder_ / "report", kept);
+  for (const char* folder : {"failure", "report"}) std::filesystem::remove(folder_ / folder, kept);
 }
 
 }  // namespace mpm

@@ -69,8 +69,7 @@ void look_at_density(const micrograph::Specimen<Dim>& specimen, Warnings& warnin
   if (specimen.picture()->aim == 0) return;
   const double aim = specimen.picture()->aim;
   const double found = double(specimen.particles()) / double(specimen.locations());
-  constexpr double tolerated = 0.005;
-  if (std::abs(found - aim) <= tolerated) return;
+  if (std::abs(found - aim) <= micrograph::density_tolerance) return;
   warnings.push_back(fmt::format(
       "the relative density is {:.3g}, not the {:.3g} that specimen.threshold asks for: "
       "no threshold comes nearer, as pieces that are removed come and go as wholes. "

@@ -61,6 +61,15 @@ class Warnings(ProgramTest):
         file.write_text(SCENE.replace("SHAPES", shapes))
         return file
 
+    def picture_scene(self, rows, keys="", more=""):
+        """Of a picture of 1 mm; `keys`: of the specimen, `more`: of the scene."""
+        (self.folder / "picture.bmp").write_bytes(gray_bmp(rows))
+        file = self.folder / "picture.yaml"
+        file.write_text(f"specimen: {{micrograph: picture.bmp, pixel_size: 25 um{keys}}}\n{more}"
+                        "grid: {cells: [20, 20]}\nsteps: 2\noutput: {snapshots: 0}\n"
+                        "loading: {piston: right, speed: 1 m/s}\n")
+        return file
+
     def warnings_of(self, file, *settings):
         options = set_options(settings)
         check = mpm_par("--check", file, *options)
@@ -171,12 +180,7 @@ class Warnings(ProgramTest):
         for j in range(16, 22):
             for i in range(30, 36):
                 rows[j][i] = 255
-        (self.folder / "picture.bmp").write_bytes(gray_bmp(rows))
-        file = self.folder / "picture.yaml"
-        file.write_text("specimen: {micrograph: picture.bmp, pixel_size: 25 um}\n"
-                        "numerics: {formulation: updated_lagrangian}\n"
-                        "grid: {cells: [20, 20]}\nsteps: 2\noutput: {snapshots: 0}\n"
-                        "loading: {piston: right, speed: 1 m/s}\n")
+        file = self.picture_scene(rows, more="numerics: {formulation: updated_lagrangian}\n")
         # 36 of 12 * 40 + 36 locations.
         pieces, early = self.warnings_of(file)
         self.assertIn("7 % of the wall (36 of 516 particles)", pieces)
@@ -185,11 +189,7 @@ class Warnings(ProgramTest):
         self.assert_only(self.warnings_of(file, "specimen.remove_unconnected=true"), "closes gaps")
 
     def test_a_picture_without_lumens(self):
-        (self.folder / "picture.bmp").write_bytes(gray_bmp([[255] * 40] * 40))
-        file = self.folder / "picture.yaml"
-        file.write_text("specimen: {micrograph: picture.bmp, pixel_size: 25 um}\n"
-                        "grid: {cells: [20, 20]}\nsteps: 2\noutput: {snapshots: 0}\n"
-                        "loading: {piston: right, speed: 1 m/s}\n")
+        file = self.picture_scene([[255] * 40] * 40)
         self.assert_only(self.warnings_of(file), "all of the picture is wall", "specimen.threshold")
 
     def test_a_density_that_no_threshold_gives(self):
@@ -199,12 +199,7 @@ class Warnings(ProgramTest):
             for i in range(4, 36):
                 if not 18 <= i < 22:
                     rows[j][i] = 200 + i
-        (self.folder / "picture.bmp").write_bytes(gray_bmp(rows))
-        file = self.folder / "picture.yaml"
-        file.write_text("specimen: {micrograph: picture.bmp, pixel_size: 25 um, remove_unconnected: true,\n"
-                        "  threshold: {target_relative_density: 0.22}}\n"
-                        "grid: {cells: [20, 20]}\nsteps: 2\noutput: {snapshots: 0}\n"
-                        "loading: {piston: right, speed: 1 m/s}\n")
+        file = self.picture_scene(rows, ", remove_unconnected: true, threshold: {target_relative_density: 0.22}")
         # Each square is 0.175 of the picture.
         self.assert_only(self.warnings_of(file), "relative density is 0.175, not the 0.22",
                          "specimen.remove_specks")

@@ -26,11 +26,15 @@ struct LawRow {
   std::optional<Contradiction> (*check)(const ParameterValues&) = nullptr;
 
   bool deformable() const { return in_plane || in_space; }
+  bool is_there(int dimensions) const { return dimensions == 2 ? bool(in_plane) : bool(in_space); }
   bool has(std::string_view key) const;
 };
 
 template <>
 std::span<const LawRow> list_of<LawRow>();
+
+/// Keywords of those that are there in the plane, or in space.
+std::vector<std::string> laws_there(int dimensions);
 
 /// The law with these values; `plane` is looked at for Dim = 2. Throws InputError where there is no
 /// such law in the plane or in space, naming those that are.

@@ -13,6 +13,9 @@
 
 namespace mpm::micrograph {
 
+/// How far a relative density may be from the one that is aimed at.
+inline constexpr double density_tolerance = 0.005;
+
 /// What was taken from a picture.
 struct PictureFigures {
   double threshold = 0;           ///< gray level that parts the pixels; 0 with bands
