@@ -1,8 +1,10 @@
 /// mpm_par: start, read, run, and say on one rank what went wrong.
 
 #include <mpm/core/error.hpp>
+#include <mpm/core/folded.hpp>
 #include <mpm/core/interruption.hpp>
 #include <mpm/core/memory.hpp>
+#include <mpm/core/terminal.hpp>
 #include <mpm/micrograph/preview.hpp>
 #include <mpm/parallel/session.hpp>
 #include <mpm/scene/command_line.hpp>
@@ -14,15 +16,45 @@
 #include <mpm/simulation/step_measurement.hpp>
 
 #include <cstdio>
+#include <memory>
 #include <new>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 namespace {
 
 using namespace mpm;
+
+/// What is logged, folded at 80 columns for a person.
+class FoldedText final : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&,
+              spdlog::memory_buf_t& to) override
+  {
+    std::string text(message.payload.data(), message.payload.size());
+    if (on_terminal_) text = folded(text, std::string_view("warning: ").size());
+    to.append(text.data(), text.data() + text.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override
+  {
+    return std::make_unique<FoldedText>();
+  }
+
+ private:
+  bool on_terminal_ = is_terminal(STDOUT_FILENO);
+};
+
+std::unique_ptr<spdlog::formatter> warning_format()
+{
+  auto format = std::make_unique<spdlog::pattern_formatter>();
+  format->add_flag<FoldedText>('*').set_pattern("%l: %*");
+  return format;
+}
 
 /// Starting thousands of ranks takes a minute on some machines.
 constexpr int seconds_of_a_check = 180;
@@ -110,7 +142,7 @@ void read_and_run(const scene::CommandLine& command_line, Ending& ending)
 /// All ranks, with the words of this one.
 void end_alone(int status, const std::string& what)
 {
-  fmt::print(stderr, "rank {}: {}\n", rank_of(MPI_COMM_WORLD), what);
+  print_message(fmt::format("rank {}: {}", rank_of(MPI_COMM_WORLD), what));
   MPI_Abort(MPI_COMM_WORLD, status);
 }
 
@@ -128,7 +160,7 @@ class Endings {
     ending.message = what;
     const int rank = rank_of(comm_);
     std::fflush(stdout);
-    if (rank == 0) fmt::print(stderr, "{}\n", what);
+    if (rank == 0) print_message(what);
     if (all_arrive(comm_, seconds_of_ending)) return;
     if (rank != 0) end_alone(int(status), what);
     MPI_Abort(MPI_COMM_WORLD, int(status));
@@ -218,7 +250,7 @@ int main(int argc, char** argv)
   {
     const Session session(argc, argv, petsc);
     rank = rank_of(MPI_COMM_WORLD);
-    spdlog::set_pattern("%l: %v");
+    spdlog::set_formatter(warning_format());
     const Endings endings;
     if (wrong_usage.empty())
       ending = run(asked, from, limit, endings);

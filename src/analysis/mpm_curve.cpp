@@ -3,6 +3,7 @@
 #include <mpm/analysis/compression_curve.hpp>
 #include <mpm/analysis/compression_summary.hpp>
 #include <mpm/core/error.hpp>
+#include <mpm/core/terminal.hpp>
 #include <mpm/core/units.hpp>
 #include <mpm/output/history.hpp>
 #include <mpm/output/summary.hpp>
@@ -130,7 +131,7 @@ void run(const Request& request)
 
 int report(const std::exception& error, mpm::ExitStatus status)
 {
-  fmt::print(stderr, "mpm_curve: {}\n", error.what());
+  mpm::print_message(fmt::format("mpm_curve: {}", error.what()));
   return int(status);
 }
 

@@ -1,6 +1,7 @@
 /// draw_wood: a micrograph of a transverse section of wood from a parameter file.
 
 #include <mpm/core/error.hpp>
+#include <mpm/core/terminal.hpp>
 #include <mpm/micrograph/anatomy_drawing.hpp>
 #include <mpm/micrograph/anatomy_parameters.hpp>
 
@@ -39,7 +40,7 @@ void draw_picture(const Request& request)
 
 ExitStatus failed(const std::exception& error, ExitStatus status)
 {
-  fmt::print(stderr, "{}\n", error.what());
+  print_message(error.what());
   return status;
 }
 

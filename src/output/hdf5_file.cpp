@@ -1,4 +1,5 @@
 #include <mpm/core/error.hpp>
+#include <mpm/core/terminal.hpp>
 #include <mpm/output/hdf5_file.hpp>
 #include <mpm/output/replace_file.hpp>
 #include <mpm/parallel/open_files.hpp>
@@ -59,9 +60,9 @@ std::filesystem::path file_in_writing;  // for those who have to say that it fai
   const int rank = rank_of(MPI_COMM_WORLD);
   std::error_code ignored;
   std::filesystem::remove(temporary_name(file_in_writing), ignored);
-  fmt::print(stderr, "{}: {} failed{} ({}). Check free space, quota and disk.\n",
-             file_in_writing.string(), what, rank > 0 ? fmt::format(" on rank {}", rank) : "",
-             words);
+  print_message(fmt::format("{}: {} failed{} ({}). Check free space, quota and disk.",
+                            file_in_writing.string(), what,
+                            rank > 0 ? fmt::format(" on rank {}", rank) : "", words));
   end_with_open_files();
 }
 

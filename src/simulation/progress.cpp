@@ -1,8 +1,7 @@
+#include <mpm/core/terminal.hpp>
 #include <mpm/simulation/progress.hpp>
 
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -24,17 +23,7 @@ std::string duration(double seconds)
 
 }  // namespace
 
-bool output_is_terminal()
-{
-  if (!std::getenv("OMPI_COMM_WORLD_RANK") && !std::getenv("PMI_RANK")) return isatty(1) != 0;
-  std::error_code none;
-  const auto target =
-      std::filesystem::read_symlink("/proc/" + std::to_string(getppid()) + "/fd/1", none);
-  return !none &&
-         (target.string().starts_with("/dev/pts/") || target.string().starts_with("/dev/tty"));
-}
-
-Progress::Progress() : terminal_(output_is_terminal()) {}
+Progress::Progress() : terminal_(is_terminal(STDOUT_FILENO)) {}
 
 std::string Progress::line(const ProgressState& state, double seconds) const
 {

@@ -13,10 +13,20 @@ class Combination:
     only_reference: bool = False  # run for its result, no point of the study
     label: str = ""  # what its entry of runs is called
     labelled: tuple = ()  # keys whose values the label stands for
+    # Pairs of a key and what the study calls its value: the same run under two names is one.
+    names: tuple = dataclasses.field(default=(), compare=False)
 
     def value(self, key):
         of_run = {**dict(self.settings), "ranks": str(self.ranks), "label": self.label}
         return of_run.get(key)
+
+    def name_of(self, key):
+        """What the study calls its value, or None."""
+        return dict(self.names).get(key)
+
+    def has(self, key, text):
+        """Whether this is its value, or what the study calls it."""
+        return text in (self.value(key), self.name_of(key))
 
 
 def settings_of(node, where):
@@ -30,16 +40,20 @@ def settings_of(node, where):
 
 
 def _lists(node):
+    """By key its values: pairs of the name that the study gives to one, or None, and its node."""
     if not node.is_map or not node.value:
         raise node.wrong("vary is no map", "Write a list for each key: "
                          "{numerics.shape_function: [gimp, quadratic]}.")
+    found = {}
     for key, values in node.value.items():
-        if not values.is_list or not values.value:
-            raise values.wrong(f"vary.{key} is no list of values", f"Write {key}: [..., ...].")
-        for value in values.value:
+        if not (values.is_list or values.is_map) or not values.value:
+            raise values.wrong(f"vary.{key} is no list of values",
+                               f"Write {key}: [..., ...], or {key}: {{name: ..., name: ...}}.")
+        found[key] = list(values.value.items()) if values.is_map else [(None, value) for value in values.value]
+        for _, value in found[key]:
             if key == "ranks":
                 whole_number(value, "ranks", 1)
-    return node.value
+    return found
 
 
 def level_keys(along, varied, combinations):
@@ -80,13 +94,14 @@ def read_combinations(keys, default_ranks):
     found, nodes = [], {}
     for label, entry in entries:
         labelled = tuple(entry) if label else ()
-        for values in itertools.product(*(node.value for node in lists.values())):
-            chosen = {**dict(zip(lists, values)), **entry}
+        for values in itertools.product(*lists.values()):
+            chosen = {**{key: value for key, (_, value) in zip(lists, values)}, **entry}
+            names = tuple((key, name) for key, (name, _) in zip(lists, values) if name)
             for key, node in chosen.items():
                 if not any(node is known for known in nodes.setdefault(key, [])):
                     nodes[key].append(node)
             ranks = int(chosen["ranks"].value) if "ranks" in chosen else default_ranks
             settings = tuple((key, chosen[key].text) for key in varied
                              if key in chosen and key != "ranks")
-            found.append(Combination(settings, ranks, label=label, labelled=labelled))
+            found.append(Combination(settings, ranks, label=label, labelled=labelled, names=names))
     return list(dict.fromkeys(found)), varied, nodes

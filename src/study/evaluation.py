@@ -74,7 +74,8 @@ def label_of(study, combination):
             continue
         plain = key.split(".")[-1]
         text = resolution.short(key, value)
-        words.append(f"{text} rank{'s' * (value != '1')}" if key == "ranks" else
+        words.append(combination.name_of(key) if combination.name_of(key) else
+                     f"{text} rank{'s' * (value != '1')}" if key == "ranks" else
                      text if text.replace("_", "").isalpha() else f"{plain} {text}")
     return ", ".join(words)
 
@@ -126,8 +127,8 @@ def judge_energy(row, summary, bound):
 
 
 def series_of(study, row):
-    """What rows of one ladder share."""
-    return tuple((key, row.combination.value(key)) for key in study.varied
+    """What rows of one ladder share, by the names of values that have some."""
+    return tuple((key, row.combination.name_of(key) or row.combination.value(key)) for key in study.varied
                  if key not in study.level_keys)
 
 

@@ -4,8 +4,7 @@ import dataclasses
 from checked_keys import known, quantity
 from mpm_par.quantities import to_si
 
-NEEDED = ("source", "runs")
-KEYS = (*NEEDED, "run_time")
+KEYS = ("source", "runs", "run_time")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -30,7 +29,7 @@ def _entry(node, varied, combinations, names):
     if "where" in keys:
         settings = known(keys["where"], ("label", *varied), "where")
         where = tuple((key, value.text) for key, value in settings.items())
-        if not any(all(run.value(key) == text for key, text in where) for run in combinations):
+        if not any(all(run.has(key, text) for key, text in where) for run in combinations):
             raise keys["where"].wrong("where fits no run", "Write its values as in vary or runs.")
     return Known(where, {name: _value(keys[name], name) for name in keys if name != "where"})
 
@@ -48,12 +47,13 @@ def _run_time(node):
 def read_known(node, varied, combinations, measures):
     """(entries, source, run time or None)."""
     keys = known(node, KEYS, "known")
-    for key in NEEDED:
-        if key not in keys:
-            raise node.wrong(f"known has no {key}", "Give it source: (a text) and runs: (a list).")
-    if not keys["runs"].is_list:
+    if "source" not in keys or not {"runs", "run_time"} & set(keys):
+        raise node.wrong(f"known has no {'runs and no run_time' if 'source' in keys else 'source'}",
+                         "Give it source: (a text) and runs: (a list), or run_time: [4 h, 100 h].")
+    runs = keys["runs"].value if "runs" in keys else []
+    if not isinstance(runs, list):
         raise keys["runs"].wrong("known.runs is no list",
                                  "Write e.g. - {where: {loading.piston: top}, modulus: 3252 MPa}.")
     names = [measure.name for measure in measures if measure.kind != "curve"]
-    return [_entry(entry, varied, combinations, names) for entry in keys["runs"].value], \
+    return [_entry(entry, varied, combinations, names) for entry in runs], \
         keys["source"].text, _run_time(keys["run_time"]) if "run_time" in keys else None

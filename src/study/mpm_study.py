@@ -11,6 +11,7 @@ import error_bar
 import problems
 import program
 import study_run
+from mpm_par.problems import say
 
 
 def part_of(text, parser):
@@ -90,20 +91,19 @@ def main(words):
         else:
             study_run.run_studies(given, found_program(), output)
     except problems.InputError as error:
-        print(error, file=sys.stderr)
+        say(error)
         return problems.BAD_INPUT
     except problems.NoResult as error:
-        print(error, file=sys.stderr)
+        say(error)
         return problems.NUMERICAL_FAILURE
     except BrokenPipeError:  # whoever read what is printed, such as head, has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
-        print(f"{error.filename or given.output}: {error.strerror}. Choose another --output, or "
-              "make room.", file=sys.stderr)
+        say(f"{error.filename or given.output}: {error.strerror}. Choose another --output, or "
+            "make room.")
         return problems.FILE_FAILURE
     except KeyboardInterrupt:
-        print(f"\nInterrupted. The same command goes on from what {given.output} holds.",
-              file=sys.stderr)
+        say(f"\nInterrupted. The same command goes on from what {given.output} holds.")
         return problems.INTERRUPTED
     return problems.DONE
 

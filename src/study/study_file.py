@@ -65,7 +65,7 @@ class Study:
         """What others found for this run: values by name of the measure; later entries count."""
         found = {}
         for entry in self.known:
-            if all(combination.value(key) == value for key, value in entry.where):
+            if all(combination.has(key, value) for key, value in entry.where):
                 found.update(entry.values)
         return found
 
@@ -83,6 +83,9 @@ def _along(keys, varied, combinations, nodes):
     else:
         along = next((key for key in resolution.SIZES if key in varied), None)
     for combination in combinations if along else []:
+        if combination.name_of(along):
+            raise nodes[along][0].wrong(f"{along}, along which the study refines, has names",
+                                        "Write its values as a list, or choose another key with along.")
         text = combination.value(along)
         try:
             if text is None:

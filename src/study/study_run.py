@@ -30,9 +30,10 @@ def check_keys(study, program):
 def _name(study, combination):
     """Values of what varies, for the line that tells of the run."""
     words = [combination.label] if combination.label else []
-    words += [value for key, value in combination.settings if key not in combination.labelled]
+    words += [combination.name_of(key) or value for key, value in combination.settings
+              if key not in combination.labelled]
     if "ranks" in study.varied:
-        words.append(f"{combination.ranks} ranks")
+        words.append(combination.name_of("ranks") or f"{combination.ranks} ranks")
     return ", ".join(words) or "the scene as it is"
 
 

@@ -5,6 +5,8 @@ from unittest import mock
 import numpy
 
 import analysis
+import curve_landmarks
+from mpm_par.history import History
 
 
 def row(cells, **keys):
@@ -63,6 +65,29 @@ class Analysis(unittest.TestCase):
         with mock.patch.object(analysis, "read", lambda name: rows):
             found = analysis.ladder("loblolly", "gimp flip", "fixed")
         self.assertEqual([one["cells"] for one in found], [75, 150])
+
+
+class Landmarks(unittest.TestCase):
+    def curve(self, stress, end=0.5):
+        strain = numpy.linspace(0, end, 501)
+        return History({"strain": strain, "stress": stress(strain)}, {"strain": "1", "stress": "Pa"})
+
+    def test_a_stress_is_reached_at_a_strain_or_not_at_all(self):
+        rising = self.curve(lambda strain: 1e9 * strain)
+        # Stresses are means since the line before.
+        self.assertAlmostEqual(curve_landmarks.strain_at(rising, 0.3e9), 0.2995, places=6)
+        self.assertIsNone(curve_landmarks.strain_at(rising, 0.6e9))
+
+    def test_a_hump_is_where_the_slope_falls(self):
+        share, strain = curve_landmarks.hump(self.curve(
+            lambda strain: 1e9 * (numpy.minimum(strain, 0.3) + 0.4 * numpy.maximum(strain - 0.3, 0))))
+        self.assertAlmostEqual(share, 0.6, places=6)
+        self.assertAlmostEqual(strain, 0.32, places=6)
+        self.assertAlmostEqual(curve_landmarks.hump(self.curve(lambda strain: 1e9 * strain ** 2))[0], 0, places=9)
+
+    def test_a_curve_that_ends_before_or_falls_has_none(self):
+        self.assertIsNone(curve_landmarks.hump(self.curve(lambda strain: 1e9 * strain, end=0.35)))
+        self.assertIsNone(curve_landmarks.hump(self.curve(lambda strain: -1e9 * strain)))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,9 @@
     wood_study_page.py --check    only says whether the page is the one that would be written
 """
 import csv
+import io
 import json
+import re
 import shutil
 import statistics
 import subprocess
@@ -19,11 +21,14 @@ import sys
 import tempfile
 from pathlib import Path
 
+import numpy
+
 import runs  # noqa: F401  (which makes the project's modules known)
+import curve_landmarks
 from words import filled_in, finished
 from written_page import table, write_or_check
 
-from mpm_par.report import facts, studies, study_facts, theory
+from mpm_par.report import facts, structure, studies, study_facts, theory
 from mpm_par.study import read_study, study_folders
 
 PAGE = runs.PROJECT / "docs" / "wood_study.md"
@@ -35,11 +40,22 @@ AGAIN = FOLDER / "again.json"
 LADDERS = runs.PROJECT / "docs" / "formulations" / "ladders.csv"
 IN_LADDERS = "loblolly, tangential", "poplar, tangential", "poplar, radial", "loblolly, radial"
 RISING_LINES = ("4", "8"), ("8", "16")  # times the plateau's last stress, beside the 2 and 4 of runs
+SAMPLED_STRAINS = 0.05, 0.10, 0.20, 0.26, 0.30, 0.35, 0.40, 0.50
+EARLY = 0.05  # strain
+DENSE_STRESS = 1e9  # Pa, about twice the cell wall's usual yield stress
 PLASTIC_WORK, AXIAL_STRESS = "plastic_work", "axial_stress"
-FRAMES = {  # strip of four: number of its first snapshot, and of the run, from 1 on
-    "wood_yield": ((1, 3, PLASTIC_WORK), (1, 4, PLASTIC_WORK)),
-    "wood_poplar": ((0, 1, PLASTIC_WORK), (0, 2, PLASTIC_WORK), (0, 1, AXIAL_STRESS), (0, 2, AXIAL_STRESS)),
-    "wood_ponderosa": ((2, 1, PLASTIC_WORK),)}
+POPLAR = 0.05, 0.15, 0.30, 0.45
+TABLE_1 = {  # wood and direction: study and run
+    "loblolly, radial": ("wood_yield", "500 MPa, radial"),
+    "loblolly, tangential": ("wood_yield", "500 MPa, tangential"),
+    "poplar, radial": ("wood_poplar", "radial"), "poplar, tangential": ("wood_poplar", "tangential"),
+    "ponderosa, tangential": ("wood_ponderosa", "tangential")}
+FRAMES = {  # strips: name of the picture, run, colour, strains
+    "wood_yield": (("radial", "500 MPa, radial", PLASTIC_WORK, (0.048, 0.168, 0.288, 0.457, 0.595)),
+                   ("tangential", "500 MPa, tangential", PLASTIC_WORK, (0.146, 0.297, 0.446, 0.595))),
+    "wood_poplar": tuple((way, way, colour, POPLAR) for colour in (PLASTIC_WORK, AXIAL_STRESS)
+                         for way in ("radial", "tangential")),
+    "wood_ponderosa": (("tangential", "tangential", PLASTIC_WORK, (0, 0.05, 0.186, 0.30, 0.45)),)}
 
 
 def onset_of_densification(run, line):
@@ -68,37 +84,100 @@ def rising_line_rows(study, runs_of_it):
     return ["run, MPa at % strain", *lines, "known"], rows
 
 
+def landmark_rows(study, runs_of_it):
+    """(titles, rows): where curves pass, the overshoot before a plateau, and the second hump that
+    yielding latewood leaves on one."""
+    rows = []
+    for entry, run in runs_of_it:
+        first = run.history["stress"][run.history.strain_of("stress") <= EARLY]
+        stresses = run.history.at("stress", SAMPLED_STRAINS)
+        dense, hump = curve_landmarks.strain_at(run.history, DENSE_STRESS), curve_landmarks.hump(run.history)
+        sampled = ["-" if numpy.isnan(stress) else study_facts.four_digits(stress / 1e6) for stress in stresses]
+        rows.append([study_facts.name_of(study, entry), study_facts.four_digits(first.max() / 1e6), *sampled,
+                     "-" if dense is None else f"{100 * dense:.3g}",
+                     *(("-", "-") if hump is None else (f"{100 * hump[0]:.2g}", f"{100 * hump[1]:.0f}"))])
+    return ["run", f"highest up to {100 * EARLY:.0f} % (MPa)",
+            *(f"at {100 * strain:.0f} % (MPa)" for strain in SAMPLED_STRAINS), f"{DENSE_STRESS / 1e9:.0f} GPa at (%)", "hump: slope lost (%)", "hump at (%)"], rows
+
+
+def border_rows(study, runs_of_it):
+    """(titles, rows): where the border of two layers across x stands, of the present width, and how much of
+    the plastic work in the left one is done in its third beside the border."""
+    rows = []
+    for entry, run in runs_of_it:
+        layers = theory.layers(run, "x")
+        if len(layers) != 2 or not run.snapshots or not {"id", "plastic_work"} <= set(run.snapshots[0].units):
+            continue
+        width = run.summary["size"][0]
+        border = max(float(layer["x"][0]) for layer in layers) * width
+        places, works = zip(*map(by_id, run.snapshots))
+        near, third = abs(places[0] - border) < 0.01 * width, (places[0] > border * 2 / 3) & (places[0] < border)
+        left, lists = places[0] < border, ([], [])
+        for snapshot, x, work in zip(run.snapshots, places, works):
+            now = width * (1 - snapshot.strain) if run.axis == 0 else width
+            at = f"at {100 * snapshot.strain:.3g} %"
+            lists[0].append(f"{100 * numpy.median(x[near]) / now:.3g} {at}")
+            if work[left].sum() > 0:
+                lists[1].append(f"{100 * work[third].sum() / work[left].sum():.3g} {at}")
+        name = study_facts.name_of(study, entry)
+        rows += [[name, what, ", ".join(found)] for what, found in zip(("border", "work near it"), lists)]
+    return ["run", "what", "percent, at strain"], rows
+
+
+def by_id(snapshot):
+    """x and plastic work of all particles, in the same order at all times."""
+    order = numpy.argsort(snapshot["id"])
+    return snapshot["position"][order, 0], snapshot["plastic_work"][order]
+
+
 # Of runs, which are not kept.
 TABLES = {"foam": theory.honeycomb_rows, "layers": theory.layer_rows, "windows": studies.window_rows,
-          "rising_lines": rising_line_rows}
+          "reading": studies.reading_rows, "rising_lines": rising_line_rows, "landmarks": landmark_rows,
+          "border": border_rows}
 
 
 def take(results):
     """Tables and pictures of finished studies."""
     for folder in study_folders(results):
-        place = FOLDER / folder.name
-        place.mkdir(parents=True, exist_ok=True)
-        for name in KEPT:
-            shutil.copyfile(folder / name, place / name)
         study = read_study(folder)
         runs_of_it = studies.opened(study, folder)
-        for name, rows_of in TABLES.items():
-            titles, rows = rows_of(study, runs_of_it)
+        found = {name: rows_of(study, runs_of_it) for name, rows_of in TABLES.items()}
+        strips = {}
+        for name, label, colour, strains in FRAMES.get(folder.name, ()):
+            run = one_of([run for entry, run in runs_of_it if study_facts.name_of(study, entry) == label],
+                         f"{folder}: {label}")
+            strips[f"{folder.name}_{name}_{colour}.png"] = frames(run, colour, strains)
+        place = FOLDER / folder.name
+        shutil.rmtree(place, ignore_errors=True)
+        place.mkdir(parents=True)
+        for name in KEPT:
+            shutil.copyfile(folder / name, place / name)
+        for name, (titles, rows) in found.items():
             if rows:
                 with open(place / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
                     csv.writer(file, lineterminator="\n").writerows([titles, *rows])
-        for picture in (Path(results) / "report").glob(f"{folder.name}_curves.png"):
-            shutil.copyfile(picture, FOLDER / picture.name)
-        for first, number, colour in FRAMES.get(folder.name, ()):
-            stem = f"{folder.name}_{number}_{colour}"
-            strip([Path(results) / "report" / f"{stem}_{first + k:06}.png" for k in range(4)],
-                  FOLDER / f"{stem}.png")
+        for picture in FOLDER.glob(f"{folder.name}_*.png"):
+            picture.unlink()
+        for picture in (Path(results) / "report").glob(f"{folder.name}_curves*.png"):
+            if picture.name in TEXT.read_text():
+                shutil.copyfile(picture, FOLDER / picture.name)
+        for name, pictures in strips.items():
+            strip(pictures, FOLDER / name)
+
+
+def frames(run, colour, strains):
+    """PNG files, in the same colours, of the snapshots at these strains."""
+    chosen = structure.choose(run, [("strain", strain) for strain in strains])
+    if [round(snapshot.strain, 3) for snapshot in chosen] != list(strains):
+        sys.exit(f"{run.folder}: has no snapshots at strains of {strains}")
+    colouring = next(one for one in structure.colourings(run, chosen[-1])[0] if one.stem == colour)
+    return [frame.files["png"] for frame in structure.draw_frames(run, structure.Stage(run), chosen, colouring)]
 
 
 def strip(pictures, place):
     """The pictures side by side, as wide as a page."""
     from PIL import Image
-    images = [Image.open(picture).convert("RGB") for picture in pictures]
+    images = [Image.open(io.BytesIO(picture)).convert("RGB") for picture in pictures]
     width = 1600 // len(images)
     images = [image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
               for image in images]
@@ -174,6 +253,32 @@ def moduli_of_ladders():
     return table(["modulus, GPa", *(f"{method}, {cells} cells" for method, cells in methods), "paper"], lines)
 
 
+def how_well_known():
+    """Properties of Table 1 where walls yield at 500 MPa, with what is known of their errors."""
+    ladders, drawn = (read_study(FOLDER / name) for name in ("wood_error_bars", "wood_specimens"))
+    lines = []
+    for wood, (name, label) in TABLE_1.items():
+        study = read_study(FOLDER / name)
+        run = one_of([run for run in study.record["runs"] if study_facts.name_of(study, run) == label], wood)
+        finest = one_of([run for run in ladders.record["runs"]
+                         if run["label"] == wood and study_facts.is_finest(ladders, run)], wood)
+        pieces = [piece for piece in drawn.record["runs"] if wood == f"loblolly, {piece['label'].split(', ')[0]}"]
+        for measure in study_facts.numbers(study):
+            key = measure["name"]
+            found, known = run[f"value_{key}"], run.get(f"known_{key}")
+            if not known:
+                continue
+            bar = finest.get(f"bar_{key}")
+            scatter = [piece[f"value_{key}"] for piece in pieces]
+            lines.append([wood, study_facts.title(measure),
+                          "-" if found is None else study_facts.shown(measure, found),
+                          "-" if bar is None else study_facts.shown(measure, float(f"{bar:.2g}")),
+                          study_facts.shown(measure, float(f"{statistics.stdev(scatter):.2g}"))
+                          if scatter and None not in scatter else "-",
+                          study_facts.shown(measure, known), study_facts.difference(found, known) or "-"])
+    return table(["wood", "property", "found", "numerical error", "from piece to piece", "paper", "difference"], lines)
+
+
 def took():
     heads = ["study", "runs", "variant", "ranks", "run time", "processor", "program"]
     lines = []
@@ -190,7 +295,7 @@ def took():
 
 def values():
     """What may stand in braces in wood_study_page.md."""
-    found = {"took": took(), "moduli_of_ladders": moduli_of_ladders()} | again()
+    found = {"took": took(), "moduli_of_ladders": moduli_of_ladders(), "how_well_known": how_well_known()} | again()
     for folder in study_folders(FOLDER):
         study = read_study(folder)
         for name in TABLES:
@@ -214,10 +319,78 @@ def values():
     return found
 
 
+class Figures:
+    """What a sentence quotes: {STUDY|RUN|FIGURE} is a figure of study.json in the unit of the tables,
+    {STUDY.TABLE|RUN|COLUMN} a cell of a kept table. {A beside B} is their difference in percent of
+    B, which may be `known`; {A over B} is their ratio, {A less B} their difference. Behind a colon
+    stands how many digits to write."""
+
+    QUOTED = re.compile(r"\{([a-z_]+(?:\.[a-z_]+)?\|[^{}]+?)(?::(\d))?\}")
+    WORDS = " beside ", " over ", " less "
+
+    def __init__(self):
+        self.studies = {folder.name: read_study(folder) for folder in study_folders(FOLDER)}
+
+    def quoted(self, text):
+        return self.QUOTED.sub(lambda found: self.words(found[1], found[2]), text)
+
+    def words(self, asked, digits):
+        word = next((word for word in self.WORDS if word in asked), None)
+        if not word:
+            text = self.figure(asked)
+            return with_digits(number(text, asked), int(digits)) if digits else text
+        first, second = asked.split(word)
+        a, b = (number(self.figure(one), asked) for one in (
+            first, f"{first}|known" if second == "known" else second))
+        if word == " beside ":
+            return f"{100 * (a / b - 1):+.{int(abs(a / b - 1) < 0.0095)}f} %"
+        return with_digits(a / b if word == " over " else a - b, int(digits or 2))
+
+    def figure(self, asked):
+        study, name, figure, *known = asked.split("|")
+        study, _, kept = study.partition(".")
+        if kept:
+            return self.cell(FOLDER / study / f"{kept}.csv", name, figure)
+        study = self.studies[study]
+        run = one_of([run for run in study.record["runs"] if study_facts.name_of(study, run) == name], asked)
+        measure = one_of([measure for measure in study.record["measures"] if measure["name"] == figure], asked)
+        value = run[f"{'known' if known else 'value'}_{figure}"]
+        return "-" if value is None else study_facts.shown(measure, value)
+
+    @staticmethod
+    def cell(path, name, column):
+        with open(path, newline="", encoding="utf-8") as file:
+            titles, *rows = csv.reader(file)
+        row = one_of([row for row in rows if name in (row[0], f"{row[0]}: {row[1]}")], f"{path}: {name}")
+        if column in titles:
+            return row[titles.index(column)]
+        # A list of what there is `at` which strain.
+        return one_of([part.partition(" ")[0] for part in row[-1].split(", ") if part.endswith(f" {column}")],
+                      f"{path}: {name}, {column}")
+
+
+def number(text, asked):
+    try:
+        return float(text.replace(",", ""))
+    except ValueError:
+        raise RuntimeError(f"{TEXT.name}: {asked} is {text}, no number") from None
+
+
+def with_digits(value, digits):
+    """As many as asked for, or all before the point."""
+    return f"{value:.0f}" if abs(value) >= 10 ** (digits - 1) else f"{value:#.{digits}g}"
+
+
+def one_of(found, asked):
+    if len(found) != 1:
+        raise RuntimeError(f"{TEXT.name}: {asked} names {len(found)} things, not one")
+    return found[0]
+
+
 def written():
     text = TEXT.read_text()
     asked = {key: value for key, value in values().items() if "{" + key + "}" in text}
-    return finished(TEXT, filled_in(TEXT, asked))
+    return finished(TEXT, Figures().quoted(filled_in(TEXT, asked)))
 
 
 def main():

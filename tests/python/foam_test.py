@@ -73,22 +73,24 @@ class Layers(unittest.TestCase):
 
     @unittest.skipUnless(theory, "needs NumPy, matplotlib and Pillow")
     def test_are_those_of_the_lighter_window_whichever_is_named_first(self):
-        def run(piston, modulus, windows):
+        def run(piston, modulus, windows, toe=None):
             return types.SimpleNamespace(
-                axis=piston, properties={"modulus": modulus}, scene={"specimen": {"windows": windows}},
+                axis=piston, properties={"modulus": modulus, "toe": toe}, scene={"specimen": {"windows": windows}},
                 summary={"windows": {"early": 0.40, "late": 0.79}})
 
-        def rows(*windows):
+        def rows(*windows, toe=None):
             entries = [{"settings": {"loading.piston": side}, "label": side, "level": ""}
                        for side in ("right", "top")]
             study = types.SimpleNamespace(title="", record={"along": None})
-            runs = [run(0, 2740e6, windows), run(1, 3252e6, windows)]
+            runs = [run(0, 2740e6, windows), run(1, 3252e6 if not toe else 500e6, windows, toe)]
             return theory.layer_rows(study, list(zip(entries, runs)))[1]
 
         early, late = {"name": "early", "x": ["0", "0.473"]}, {"name": "late", "x": ["0.473", "1"]}
         expected = [["right", "0.473", "2740", "3252", "1919", "4449"]]
         self.assertEqual(rows(early, late), expected)
         self.assertEqual(rows(late, early), expected)
+        # A soft start, where slots close first, is none of the layers'.
+        self.assertEqual(rows(early, late, toe={"strain": 0.03, "modulus": 3252e6}), expected)
         # Two that do not part the width are no two layers.
         self.assertEqual(rows({"name": "early", "x": [0, 0.4]}, {"name": "late", "x": [0.6, 1]}), [])
 

@@ -8,6 +8,7 @@ import re
 import shutil
 import statistics
 import subprocess
+import types
 import unittest
 
 import needed
@@ -321,15 +322,48 @@ class Report(ProgramTest):
         self.assertNotEqual(*drawn)
         self.assertIn(f"{statistics.mean(drawn):.4g} ± {float(format(statistics.stdev(drawn), '.2g')):.4g} "
                       f"({min(drawn):.4g} to {max(drawn):.4g})", text)
-        for words in ("All 8 runs ended well", "times faster than 60 min to 10 h", "Over drawn specimens", "Both directions of a wood.", "Foam theory",
-                      "What the threshold is worth", "Plastic work in the windows", "one.yaml", "A book"):
+        for words in ("All 8 runs ended well", "times faster than 60 min to 10 h", "Over drawn specimens",
+                      "Both directions of a wood.", "Foam theory", "What the threshold is worth",
+                      "How the picture was read", "Warnings", "All runs: the piston's speed, 50 m/s, is above",
+                      "Plastic work in the windows", "one.yaml", "A book"):
             self.assertIn(words, text)
+        read = next(open_run(folder / "one" / run["folder"]) for run in runs
+                    if run["settings"]["specimen.threshold_shift"] == "20").summary
+        self.assertEqual(read["threshold"], 170)
+        self.assertIn(f"170 0 {read['bulk_density']:.0f} {read['relative_density']:.3f}", " ".join(text.split()))
         pictures = {path.name for path in (folder / "report").iterdir()}
         self.assertLessEqual({"one_curves.svg", "two_curves.png"}, pictures)
         self.assertTrue(any(name.startswith("two_3_plastic_work") for name in pictures), pictures)
         refused = mpm_report(folder, "--at", "5%")
         self.assertEqual(refused.returncode, 2)
         self.assertIn("holds studies", refused.stderr)
+
+    def test_studies_say_how_much_faster_runs_were_and_how_far_figures_are_known(self):
+        from mpm_par.report import study_facts
+        run = {"label": "a", "level": "", "state": "ok", "wall_seconds": 60.0, "energy_error": 1e-3,
+               "value_modulus": 2e9, "bar_modulus": 3e7}
+        record = {"runs": [run], "known_run_time": [3600.0, 36000.0],
+                  "measures": [{"name": "modulus", "kind": "value", "path": "compression.modulus", "column": ""}]}
+        study = types.SimpleNamespace(title="", record=record)
+        self.assertEqual(study_facts.beside_known(study)[1], [])
+        self.assertEqual(study_facts.figures(study), (
+            ["run", "modulus (MPa)", "energy error", "wall time", "times faster than 60 min to 10 h"],
+            [["a", "2000 ± 30", "0.1 %", "60 s", "60 to 600"]]))
+        run["known_modulus"] = 1e9
+        self.assertEqual(study_facts.beside_known(study)[1], [["a", "2000 ± 30 / 1000 (+100 %)", "60 to 600"]])
+        self.assertEqual(study_facts.figures(study)[0][-1], "wall time")
+
+    def test_many_ladders_of_studies_are_drawn_in_a_picture_each(self):
+        from mpm_par.history import read_history
+        from mpm_par.report import studies
+        curve = self.folder / "history.csv"
+        curve.write_text("time [s],strain,stress [Pa]\n0,0,0\n1,0.1,1e6\n2,0.2,2e6\n")
+        run = types.SimpleNamespace(axis=0, properties={}, history=read_history(curve))
+        study = types.SimpleNamespace(title="", record={"along": "grid.cells"})
+        entries = [({"label": label, "level": str(level)}, run) for label in ("soft", "stiff") for level in range(6)]
+        few, many = (studies._curves("s", study, entries[::step]) for step in (2, 1))
+        self.assertEqual([made.stem for made in few], ["s_curves"])
+        self.assertEqual([made.stem for made in many], ["s_curves_1", "s_curves_2"])
 
     def test_a_legend_of_long_names_stands_within_its_picture(self):
         from mpm_par.report import drawing

@@ -16,11 +16,15 @@ from scene_run import set_options  # noqa: E402
 SCENES = pathlib.Path(__file__).parent / "scenes"
 
 
+def command_of(arguments, ranks):
+    """On one rank without the launcher, which takes its time and would stand between the program and signals."""
+    launcher = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks)] if ranks > 1 else []
+    return [*launcher, os.environ["MPM_PAR"], *map(str, arguments)]
+
+
 def mpm_par(*arguments, ranks=1, folder=None, timeout=240):
     """Runs to the end; `folder` is where it is started."""
-    command = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks),
-               os.environ["MPM_PAR"], *map(str, arguments)]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True,
+    return subprocess.run(command_of(arguments, ranks), cwd=folder, capture_output=True, text=True,
                           timeout=seconds(timeout))
 
 
@@ -30,10 +34,9 @@ def unfolded(text):
 
 
 def start(*arguments, ranks=1):
-    """A run that goes on meanwhile; on one rank without the launcher, which would stand between it and signals."""
-    command = [os.environ["MPM_MPIEXEC"], os.environ["MPM_NUMPROC_FLAG"], str(ranks)] if ranks > 1 else []
-    return subprocess.Popen([*command, os.environ["MPM_PAR"], *map(str, arguments)],
-                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    """A run that goes on meanwhile."""
+    return subprocess.Popen(command_of(arguments, ranks), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                            text=True)
 
 
 def scene(name):

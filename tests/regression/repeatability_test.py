@@ -26,7 +26,7 @@ class Repeatability(ProgramTest):
 
     def test_ponderosa_repeats_itself_while_borders_move_often(self):
         for ranks in 2, 3:
-            self.check_repeats("wood/ponderosa_tangential.yaml", ranks, "steps=3000",
+            self.check_repeats("wood/ponderosa_tangential.yaml", ranks, "steps=1500", "grid.cells=[100, 129]",
                                "numerics.formulation=updated_lagrangian",
                                "loading.speed=60 m/s", "loading.ramp_time=0 s", FIELDS,
                                "output.snapshots.strains=[0 %, 1 %]",

@@ -90,6 +90,21 @@ class Runs(StudyFile):
         self.assertEqual(evaluation.label_of(study, first), "slow and soft, gimp")
         self.assertEqual(evaluation.label_of(study, last), "quadratic, flip")
 
+    def test_of_a_map_are_called_by_its_keys(self):
+        study = self.read(GOOD.replace("[gimp, quadratic]", "{smooth: gimp, smoother: quadratic}"))
+        last = study.combinations[-1]
+        self.assertEqual(last.value("numerics.shape_function"), "quadratic")
+        self.assertEqual(evaluation.label_of(study, last), "smoother")
+        self.assertEqual(study.combinations[-1].settings, self.read(GOOD).combinations[-1].settings)
+        self.refused("[gimp, quadratic]", "{smooth: gimp, smooth: cubic}", 5, "given twice")
+        self.refused("[gimp, quadratic]", "{}", 5, "no list of values")
+        self.refused("[[10, 20], [20, 40], [40, 80]]", "{coarse: [10, 20], fine: [20, 40]}", 6,
+                     "along which the study refines, has names")
+        twice = self.read(GOOD.replace("[gimp, quadratic]", "{smooth: gimp, round: gimp}"))
+        self.assertEqual(len(twice.combinations), 3)
+        ranks = self.read(GOOD.replace("[gimp, quadratic]", "[gimp]\n  ranks: {alone: 1, together: 2}"))
+        self.assertEqual(evaluation.label_of(ranks, ranks.combinations[-1]), "gimp, together")
+
     def test_may_be_a_list_alone(self):
         text = GOOD.replace("vary:", "runs:").replace(
             "  numerics.shape_function: [gimp, quadratic]\n", "").replace(
@@ -166,6 +181,15 @@ class Known(StudyFile):
         for wrong, words in (("4 h", "no list of two"), ("[4 h]", "no list of two"),
                              ("[4 m, 5 h]", "is a length, not a time"), ("[6 h, 5 h]", "falls")):
             self.refused("[4 h, 5 h]", wrong, 11, "known.run_time", words, text=text)
+        named = GOOD.replace("[gimp, quadratic]", "{smooth: gimp, smoother: quadratic}") + \
+            KNOWN.replace("numerics.shape_function: gimp", "numerics.shape_function: smooth")
+        plain, called = (self.read(text) for text in (GOOD + KNOWN, named))
+        self.assertEqual([plain.known_of(run) for run in plain.combinations],
+                         [called.known_of(run) for run in called.combinations])
+        alone = self.read(GOOD + "known: {source: A paper, run_time: [4 h, 5 h]}\n")
+        self.assertEqual((alone.known, alone.known_run_time), ([], [4 * 3600, 5 * 3600]))
+        self.refused(", run_time: [4 h, 5 h]", "", 9, "has no runs and no run_time",
+                     text=GOOD + "known: {source: A paper, run_time: [4 h, 5 h]}\n")
 
 
 class Wrong(StudyFile):

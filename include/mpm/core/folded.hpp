@@ -9,4 +9,7 @@ namespace mpm {
 /// first begins behind as much that stands there already. A word is never cut.
 std::string folded(const std::string& text, std::size_t indent);
 
+/// Each line of a message folded by itself if it is longer than that, four blanks further in.
+std::string folded_message(const std::string& text);
+
 }  // namespace mpm

@@ -36,8 +36,4 @@ class Progress {
   bool open_line_ = false;
 };
 
-/// Whether what is printed reaches a terminal. Under mpirun every rank has a pseudo terminal, so
-/// the launcher's own output is looked at.
-bool output_is_terminal();
-
 }  // namespace mpm

@@ -2,7 +2,7 @@
 import argparse
 import sys
 
-from mpm_par.problems import ResultsError
+from mpm_par.problems import ResultsError, say
 from mpm_par.run import open_run
 
 
@@ -26,7 +26,7 @@ def main(words):
     try:
         print("\n".join(describe(open_run(parser.parse_args(words).folder))))
     except ResultsError as error:
-        print(error, file=sys.stderr)
+        say(error)
         return 2
     return 0
 

@@ -27,5 +27,16 @@ TEST(Folded, AWordThatIsTooLongIsNotCut)
   EXPECT_EQ(folded("in " + path, 4), "in\n    " + path);
 }
 
+TEST(FoldedMessage, FoldsLongLinesEachByItself)
+{
+  const std::string word(39, 'a'), two = word + " " + word, three = two + " " + word;
+  EXPECT_EQ(folded_message("short\n\n" + two), "short\n\n" + two);
+  EXPECT_EQ(folded_message(three + "\n  " + three), word + "\n    " + word + "\n    " + word +
+                                                        "\n  " + word + "\n      " + word +
+                                                        "\n      " + word);
+  EXPECT_EQ(folded_message(""), "");
+  EXPECT_EQ(folded_message("one\n"), "one\n");
+}
+
 }  // namespace
 }  // namespace mpm

@@ -7,7 +7,7 @@ import sys
 import time
 
 from mpm_par import matplotlib_files, quantities
-from mpm_par.problems import ResultsError
+from mpm_par.problems import ResultsError, say
 
 DONE, BAD_INPUT, FILE_FAILURE = 0, 2, 4
 PACKAGES = {"numpy": "python3-numpy", "h5py": "python3-h5py", "matplotlib": "python3-matplotlib",
@@ -158,7 +158,7 @@ def main(words):
     given = arguments_of(words)
     missing = missing_packages()
     if missing:
-        print(f"no report: install {' '.join(missing)} for {sys.executable}.", file=sys.stderr)
+        say(f"no report: install {' '.join(missing)} for {sys.executable}.")
         return FILE_FAILURE
     begin = time.monotonic()
     try:
@@ -167,15 +167,14 @@ def main(words):
         path = (make_of_studies if study_folders(given.folder) else make)(given)
         print(f"report in {path} ({time.monotonic() - begin:.1f} s)")
     except (ResultsError, UsageError) as error:
-        print(f"mpm_report: {error}", file=sys.stderr)
+        say(f"mpm_report: {error}")
         return BAD_INPUT
     except ImportError as error:
-        print(f"no report: {sys.executable} cannot load a package ({error}). Install it anew.",
-              file=sys.stderr)
+        say(f"no report: {sys.executable} cannot load a package ({error}). Install it anew.")
         return FILE_FAILURE
     except OSError as error:
-        print(f"mpm_report: {error.filename or given.folder}: {error.strerror}. Make room, or let "
-              "this user write there.", file=sys.stderr)
+        say(f"mpm_report: {error.filename or given.folder}: {error.strerror}. Make room, or let "
+            "this user write there.")
         return FILE_FAILURE
     return DONE
 

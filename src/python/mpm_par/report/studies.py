@@ -11,6 +11,8 @@ from mpm_par.run import open_run
 from mpm_par.study import read_study, study_folders
 from mpm_par.windows import windows_of_scene, work_in_windows
 
+MOST_CURVES = 10  # in one picture
+
 
 def opened(study, folder):
     """[(run of study.json, mpm_par.Run)] of those that ended well and whose results are there."""
@@ -32,10 +34,17 @@ def _finish(axes, columns, size):
 
 
 def _curves(stem, study, runs):
-    """All curves in one picture, up to three times the largest stress of densification."""
+    """All curves in one picture, up to three times the largest stress of densification; those of
+    many ladders in a picture each, as nobody tells twenty curves apart."""
     runs = [(entry, run) for entry, run in runs if run.axis is not None]
-    if not runs:
-        return None
+    ladders = list(dict.fromkeys(entry["label"] for entry, _ in runs)) if study.record["along"] else []
+    if len(runs) <= MOST_CURVES or not 2 <= len(ladders) <= len(runs) / 2:
+        return [_curves_of(f"{stem}_curves", study, runs, "")] if runs else []
+    return [_curves_of(f"{stem}_curves_{k}", study, [one for one in runs if one[0]["label"] == label],
+                       f": {label}") for k, label in enumerate(ladders, 1)]
+
+
+def _curves_of(stem, study, runs, whose):
     dense = [run.properties["densification"]["stress"] for _, run in runs
              if run.properties.get("densification")]
     highest = max(numpy.nanmax(run.history["stress"]) for _, run in runs)
@@ -53,8 +62,8 @@ def _curves(stem, study, runs):
 
     columns = 1 + (len(runs) > 4)
     rows = -(-len(runs) // columns)
-    return drawing.plot(f"{stem}_curves", draw,
-                        f"Stress over strain of {len(runs)} runs.",
+    return drawing.plot(stem, draw,
+                        f"Stress over strain of {len(runs)} runs{whose}.",
                         "Mean of the stress at the piston and at the fixed edge over the first "
                         "cross-section.", height=3.8 + 0.17 * rows)
 
@@ -122,6 +131,43 @@ def window_rows(study, runs):
             "share of the plastic work (%), at strain"], rows
 
 
+def reading_rows(study, runs):
+    """(titles, rows): what the finest run of each ladder took its picture for, where that was found by
+    a density or moved by a shift of the threshold."""
+    def read(run, key):
+        return run.scene.get("specimen", {}).get(key)
+
+    shifted = any(float(read(run, "threshold_shift") or 0) for _, run in runs)
+    rows = []
+    for entry, run in runs:
+        asked, summary = read(run, "threshold"), run.summary or {}
+        if summary.get("relative_density") is None or not study_facts.is_finest(study, entry) or not (
+                isinstance(asked, dict) or shifted):
+            continue
+        gray, growth = summary.get("threshold"), summary.get("wall_growth") or 0.0
+        rows.append([study_facts.name_of(study, entry),
+                     ", ".join(map(str, asked.values())) if isinstance(asked, dict) else "-",
+                     "-" if gray is None else f"{gray:.4g}", f"{1e6 * growth:+.3g}" if growth else "0",
+                     f"{summary['bulk_density']:.0f}", f"{summary['relative_density']:.3f}"])
+    return ["run", "density asked for", "gray level that parts", "walls made thicker by (um)",
+            "density (kg/m3)", "relative density"], rows
+
+
+def warned(study, runs):
+    """Sentences of the runs' warnings, each once, with the runs that have it."""
+    whose = {}
+    for entry, run in runs:
+        for sentence in dict.fromkeys(facts.warnings(run)):
+            whose.setdefault(sentence, []).append(study_facts.name_of(study, entry))
+
+    def named(names):
+        if len(names) == len(runs):
+            return "All runs"
+        return "; ".join(names) if len(names) < 4 else f"{len(names)} runs, such as {names[0]}"
+
+    return [f"{named(names)}: {sentence}" for sentence, names in whose.items()]
+
+
 def _structures(stem, study, runs, made):
     """Frames of the runs that left snapshots, coloured by plastic work and by axial stress, as far as
     a run has them."""
@@ -145,17 +191,24 @@ def _table(caption, titles_and_rows):
     return page.table(caption, titles, rows) if rows else ""
 
 
+def _warnings(sentences):
+    return f"<h3>Warnings</h3>{page.listed(sentences)}" if sentences else ""
+
+
 def _section(folder, study, made):
     stem = folder.name
     runs = opened(study, folder)
-    drawn = [picture for picture in (_curves(stem, study, runs), _ladders(stem, study)) if picture]
+    drawn = _curves(stem, study, runs) + [picture for picture in [_ladders(stem, study)] if picture]
     made += drawn
     source = study.record["known_source"]
+    times = "" if study_facts.known_figures(study) or not study.record.get("known_run_time") else \
+        f"; run times beside those of {source}"
     return (page.paragraphs([study_facts.opening(study)])
             + page.gallery(drawn)
             + _table("Figures of the runs; ± is the estimated numerical error, or that of the "
-                     "speed, of the last of a ladder", study_facts.figures(study))
+                     f"speed, of the last of a ladder{times}", study_facts.figures(study))
             + (page.listed(found) if (found := study_facts.limits(study)) else "")
+            + _table("How the picture was read", reading_rows(study, runs))
             + _table("What the threshold is worth", study_facts.shifts(study))
             + _table("Over drawn specimens: mean ± standard deviation (least to most)",
                      study_facts.scatter(study))
@@ -165,6 +218,7 @@ def _section(folder, study, made):
             + _table("Two layers: moduli out of those in series and in parallel",
                      theory.layer_rows(study, runs))
             + _table("Plastic work in the windows", window_rows(study, runs))
+            + _warnings(warned(study, runs))
             + _structures(stem, study, runs, made))
 
 

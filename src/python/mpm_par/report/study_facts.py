@@ -67,45 +67,61 @@ def _figure(measure, run):
 
 
 def figures(study):
-    """(titles, rows) of all runs; ± is the estimated error of the finest run of a ladder."""
+    """(titles, rows) of all runs; ± is the estimated error of the finest run of a ladder. Last how
+    many times faster a run was than those of others, where beside_known does not say so."""
     measures = numbers(study)
     titles = ["run", *map(title, measures), "energy error", "wall time"]
+    took = study.record.get("known_run_time") if not known_figures(study) else None
+    if took:
+        titles.append(_faster_than(took))
     rows = []
     for run in study.record["runs"]:
         ended = run["state"] == OK
         rows.append([name_of(study, run), *(_figure(measure, run) for measure in measures),
                      f"{100 * run['energy_error']:.2g} %" if run["energy_error"] is not None
-                     else "-", clock(run["wall_seconds"]) if ended else run["status"]])
+                     else "-", clock(run["wall_seconds"]) if ended else run["status"],
+                     *([_times_faster(took, run)] if took else [])])
     return titles, rows
 
 
-def _times_faster(than, seconds):
+def _faster_than(took):
+    return f"times faster than {clock(took[0])} to {clock(took[1])}"
+
+
+def _times_faster(than, run):
     """[least, most], s, over the seconds of a run, two digits each."""
-    return " to ".join(f"{float(format(known / seconds, '.2g')):,.0f}" for known in than)
+    if run["state"] != OK:
+        return "-"
+    return " to ".join(f"{float(format(known / run['wall_seconds'], '.2g')):,.0f}" for known in than)
+
+
+def known_figures(study):
+    """Measures that a figure of others stands beside."""
+    return [measure for measure in numbers(study)
+            if any(run.get(f"known_{measure['name']}") for run in study.record["runs"])]
 
 
 def beside_known(study):
     """(titles, rows): found, known and the difference; no rows where nothing is known. Last how
     many times faster the run was, where it is said how long those took."""
-    measures = [measure for measure in numbers(study)
-                if any(run.get(f"known_{measure['name']}") for run in study.record["runs"])]
+    measures = known_figures(study)
     titles = ["run", *map(title, measures)]
     took = study.record.get("known_run_time")
     if took:
-        titles.append(f"times faster than {clock(took[0])} to {clock(took[1])}")
+        titles.append(_faster_than(took))
     rows = []
     for run in study.record["runs"]:
         cells = []
         for measure in measures:
             value, known = (run.get(f"{what}_{measure['name']}") for what in ("value", "known"))
+            found = _figure(measure, run)
             if not known:
-                cells.append("-" if value is None else f"{shown(measure, value)} / -")
+                cells.append("-" if value is None else f"{found} / -")
                 continue
-            found = "-" if value is None else shown(measure, value)
             apart = difference(value, known)
             cells.append(f"{found} / {shown(measure, known)}" + (f" ({apart})" if apart else ""))
         if took:
-            cells.append(_times_faster(took, run["wall_seconds"]) if run["state"] == OK else "-")
+            cells.append(_times_faster(took, run))
         if any(run.get(f"known_{measure['name']}") for measure in measures):
             rows.append([name_of(study, run), *cells])
     return titles, rows

@@ -71,11 +71,11 @@ def _mega(value):
 
 def layer_rows(study, runs):
     """(titles, rows): moduli of two layers across x, early- and latewood, out of those along x and
-    along y of the same specimen; of windows that part the specimen along x in two, the lighter one
-    of which is the softer layer."""
+    along y of the same specimen, beyond the toe of a curve that has one; of windows that part the
+    specimen along x in two, the lighter one of which is the softer layer."""
     rows = []
     for entry, run in runs:
-        if run.axis != 0 or not run.properties.get("modulus"):
+        if run.axis != 0 or not _stiffness(run):
             continue
         windows = layers(run, "x")
         partner = _partner(entry, run, runs)
@@ -86,12 +86,18 @@ def layer_rows(study, runs):
             continue
         lighter = min(windows, key=lambda window: run.summary["windows"][window["name"]])
         share = float(lighter["x"][1]) - float(lighter["x"][0])
-        found = foam.layer_moduli(run.properties["modulus"], partner.properties["modulus"], share)
+        found = foam.layer_moduli(_stiffness(run), _stiffness(partner), share)
         rows.append([study_facts.name_of(study, entry), f"{share:.3f}",
-                     _mega(run.properties["modulus"]), _mega(partner.properties["modulus"]),
+                     _mega(_stiffness(run)), _mega(_stiffness(partner)),
                      *(map(_mega, found) if found else ("no two such layers", "-"))])
     return ["run", "share of the lighter window", "modulus across (MPa)", "along (MPa)",
             "softer layer (MPa)", "stiffer layer (MPa)"], rows
+
+
+def _stiffness(run):
+    """The modulus that the wood has once what is slack in it is shut; None if there is none."""
+    toe = run.properties.get("toe")
+    return toe["modulus"] if toe else run.properties.get("modulus")
 
 
 def _partner(entry, run, runs):
@@ -100,4 +106,4 @@ def _partner(entry, run, runs):
         return {key: value for key, value in one["settings"].items() if key != "loading.piston"}
 
     return next((other for its, other in runs if other.axis == 1 and rest(its) == rest(entry)
-                 and other.properties.get("modulus")), None)
+                 and _stiffness(other)), None)
