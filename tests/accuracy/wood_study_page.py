@@ -279,6 +279,19 @@ def how_well_known():
     return table(["wood", "property", "found", "numerical error", "from piece to piece", "paper", "difference"], lines)
 
 
+def last_levels():
+    """How far the finest runs of wood_error_bars are from the next ones."""
+    study = read_study(FOLDER / "wood_error_bars")
+    measures = study_facts.numbers(study)
+    lines = []
+    for label in dict.fromkeys(run["label"] for run in study.record["runs"]):
+        *_, before, finest = sorted((run for run in study.record["runs"] if run["label"] == label),
+                                    key=lambda run: run["particles"])
+        lines.append([label, *(study_facts.difference(finest[f"value_{m['name']}"], before[f"value_{m['name']}"])
+                               or "-" for m in measures)])
+    return table(["wood", *(m["name"].replace("_", " ") for m in measures)], lines)
+
+
 def took():
     heads = ["study", "runs", "variant", "ranks", "run time", "processor", "program"]
     lines = []
@@ -295,7 +308,8 @@ def took():
 
 def values():
     """What may stand in braces in wood_study_page.md."""
-    found = {"took": took(), "moduli_of_ladders": moduli_of_ladders(), "how_well_known": how_well_known()} | again()
+    found = {"took": took(), "moduli_of_ladders": moduli_of_ladders(), "how_well_known": how_well_known(),
+             "last_levels": last_levels()} | again()
     for folder in study_folders(FOLDER):
         study = read_study(folder)
         for name in TABLES:
