@@ -74,9 +74,9 @@ def label_of(study, combination):
             continue
         plain = key.split(".")[-1]
         text = resolution.short(key, value)
-        words.append(combination.name_of(key) if combination.name_of(key) else
-                     f"{text} rank{'s' * (value != '1')}" if key == "ranks" else
-                     text if text.replace("_", "").isalpha() else f"{plain} {text}")
+        words.append(combination.name_of(key) or (
+            f"{text} rank{'s' * (value != '1')}" if key == "ranks" else
+            text if text.replace("_", "").isalpha() else f"{plain} {text}"))
     return ", ".join(words)
 
 

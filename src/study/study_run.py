@@ -5,11 +5,9 @@ import time
 import machine
 import store
 import study_file
+from mpm_par.problems import WIDTH
 from problems import DONE, NoResult
 from yaml_tree import read_yaml
-
-
-WIDTH = 80  # columns of the terminal
 
 
 def check_keys(study, program):

@@ -9,6 +9,7 @@ import numpy
 
 import evaluation
 from measure_keys import LEARNT
+from mpm_par.problems import WIDTH
 from mpm_par.quantities import percent
 
 COLUMNS = ("wall_seconds", "wall_spread", "core_seconds", "cpu_seconds", "elapsed_seconds",
@@ -16,7 +17,6 @@ COLUMNS = ("wall_seconds", "wall_spread", "core_seconds", "cpu_seconds", "elapse
            "exit_status", "status")
 UNITS = {"wall_seconds": "s", "core_seconds": "s", "cpu_seconds": "s", "elapsed_seconds": "s",
          "peak_memory_mib": "MiB"}
-WIDTH = 80
 
 
 def _number(value):

@@ -10,7 +10,8 @@ def strain_at(history, stress):
 
 def hump(history):
     """(share, strain): the largest share of its slope, over 4 % of strain, that the curve loses
-    between 24 and 36 % strain, and where it has lost it; None of a curve that ends before, or that does not rise there."""
+    between 24 and 36 % strain, and where it has lost it; None of a curve that ends before, or that
+    does not rise there."""
     places = numpy.arange(0.24, 0.361, 0.01)
     slope = (history.at("stress", places + 0.02) - history.at("stress", places - 0.02)) / 0.04
     if not numpy.isfinite(slope).all() or slope[0] <= 0:

@@ -2,7 +2,7 @@
 import sys
 import textwrap
 
-WIDTH = 80
+WIDTH = 80  # columns of the terminal
 
 
 class ResultsError(Exception):

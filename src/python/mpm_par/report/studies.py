@@ -201,8 +201,7 @@ def _section(folder, study, made):
     drawn = _curves(stem, study, runs) + [picture for picture in [_ladders(stem, study)] if picture]
     made += drawn
     source = study.record["known_source"]
-    times = "" if study_facts.known_figures(study) or not study.record.get("known_run_time") else \
-        f"; run times beside those of {source}"
+    times = f"; run times beside those of {source}" if study_facts.run_time_alone(study) else ""
     return (page.paragraphs([study_facts.opening(study)])
             + page.gallery(drawn)
             + _table("Figures of the runs; ± is the estimated numerical error, or that of the "

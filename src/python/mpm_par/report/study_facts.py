@@ -71,7 +71,7 @@ def figures(study):
     many times faster a run was than those of others, where beside_known does not say so."""
     measures = numbers(study)
     titles = ["run", *map(title, measures), "energy error", "wall time"]
-    took = study.record.get("known_run_time") if not known_figures(study) else None
+    took = run_time_alone(study)
     if took:
         titles.append(_faster_than(took))
     rows = []
@@ -99,6 +99,11 @@ def known_figures(study):
     """Measures that a figure of others stands beside."""
     return [measure for measure in numbers(study)
             if any(run.get(f"known_{measure['name']}") for run in study.record["runs"])]
+
+
+def run_time_alone(study):
+    """[least, most], s, that runs of others took, where nothing else is known of them; else None."""
+    return None if known_figures(study) else study.record.get("known_run_time")
 
 
 def beside_known(study):
