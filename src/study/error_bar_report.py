@@ -142,8 +142,8 @@ def terminal_text(levels, plateau, bars):
                          f"  {bar.basis}".rstrip())
     for bar in bars:
         if bar.remark:
-            lines.append(tables.wrapped(f"{bar.figure.name}: {bar.remark}"))
-    lines += [tables.wrapped(
+            lines.append(tables.indented(f"{bar.figure.name}: {bar.remark}"))
+    lines += [tables.indented(
         "gci: from the observed order; first order: from the range of the levels, as if it fell in "
         "first order; spread: wider, no order is seen (docs/studies.md). Plateau stress: mean "
         f"from {percent(plateau[0])} to {percent(plateau[1])} strain."), "",

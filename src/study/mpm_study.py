@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """Error against run time: runs a scene with many settings and says what each costs and is worth."""
-import argparse
 import os
 import pathlib
 import shlex
@@ -11,7 +10,7 @@ import error_bar
 import problems
 import program
 import study_run
-from mpm_par.problems import say
+from mpm_par.problems import Options, say
 
 
 def part_of(text, parser):
@@ -27,7 +26,7 @@ def part_of(text, parser):
 
 
 def arguments_of(words):
-    parser = argparse.ArgumentParser(
+    parser = Options(
         prog="mpm_study", description=__doc__,
         epilog="A study that was interrupted goes on where it stopped. See docs/studies.md.")
     parser.add_argument("files", metavar="study.yaml", nargs="+",

@@ -3,13 +3,12 @@ import csv
 import io
 import json
 import os
-import re
 
 import numpy
 
 import evaluation
 from measure_keys import LEARNT
-from mpm_par.problems import WIDTH
+from mpm_par.problems import folded
 from mpm_par.quantities import percent
 
 COLUMNS = ("wall_seconds", "wall_spread", "core_seconds", "cpu_seconds", "elapsed_seconds",
@@ -116,16 +115,8 @@ def _shown(value, unit=""):
     return "-" if value is None else f"{value:.3g}{unit}"
 
 
-def wrapped(text, indent="  "):
-    """Lines of at most 80 columns."""
-    lines, line = [], ""
-    for word in re.split(r" (?!%)", text):
-        if line and len(line) + 1 + len(word) > WIDTH - len(indent):
-            lines.append(line)
-            line = "  " + word
-        else:
-            line = f"{line} {word}" if line else word
-    return "\n".join(indent + line for line in [*lines, line])
+def indented(text):
+    return folded(text, "  ", "    ")
 
 
 def _reasons(study, rows, name):
@@ -135,8 +126,8 @@ def _reasons(study, rows, name):
         why = row.status if row.state != evaluation.OK else row.remarks.get(name, "")
         if why and why != evaluation.IS_REFERENCE:
             whose.setdefault((row.label, why), []).append(row)
-    return [wrapped(f"{evaluation.describe(study, same[0])}"
-                    + (f" and {len(same) - 1} more" if len(same) > 1 else "") + f": {why}")
+    return [indented(f"{evaluation.describe(study, same[0])}"
+                     + (f" and {len(same) - 1} more" if len(same) > 1 else "") + f": {why}")
             for (_, why), same in whose.items()]
 
 
@@ -175,7 +166,7 @@ def terminal_text(study, rows, outcomes):
             words = {("", *next(iter(words))[1:]): None}
         for series, text, order in words:
             known = f"; observed order {order:.2f}" if order and "order" not in text else ""
-            lines.append(wrapped(f"against {text}{known}" + (f" ({series})" if series else "")))
-        lines += [wrapped(f"warning: {warning}") for warning in outcome.warnings]
-        lines += [wrapped(f"cheapest for {line}") for line in outcome.targets]
+            lines.append(indented(f"against {text}{known}" + (f" ({series})" if series else "")))
+        lines += [indented(f"warning: {warning}") for warning in outcome.warnings]
+        lines += [indented(f"cheapest for {line}") for line in outcome.targets]
     return "\n".join(lines) + "\n"

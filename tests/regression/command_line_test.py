@@ -2,16 +2,15 @@
 
 Every message is looked for on two ranks: each must be there exactly once.
 """
-import contextlib
 import os
 import pathlib
-import pty
 import resource
 import signal
 import subprocess
 import unittest
 
 from program import History, ProgramTest, command_of, mpm_par, scene, seconds, start, summary
+from terminal import on_terminal
 
 WOOD = pathlib.Path(__file__).parents[2] / "inputs" / "wood" / "poplar_radial.yaml"
 SHORT = ["--set", "loading.strain=0.05 %"]
@@ -169,24 +168,11 @@ class CommandLine(ProgramTest):
 
     # What the user did wrong: status 2, and nothing is written.
 
-    def on_terminal(self, *arguments, ranks):
-        """(status, what is shown) where all output is that of one terminal."""
-        ours, theirs = pty.openpty()
-        with subprocess.Popen(command_of(arguments, ranks), cwd=self.folder, stdin=subprocess.DEVNULL,
-                              stdout=theirs, stderr=theirs) as run:
-            os.close(theirs)
-            shown = b""
-            with contextlib.suppress(OSError):  # which says that nobody writes any more
-                while piece := os.read(ours, 4096):
-                    shown += piece
-        os.close(ours)
-        return run.returncode, shown.decode().replace("\r\n", "\n")
-
     def test_messages_are_folded_where_a_person_reads_them_and_nowhere_else(self):
         wrong = [scene("confined_block"), "-o", "r", "--set", "loading.speed=10 smoots per fortnight",
                  "--set", "numerics.shape_function=quadratic_bspline_of_some_kind"]
         for ranks in 1, 2:
-            status, shown = self.on_terminal(*wrong, ranks=ranks)
+            status, shown = on_terminal(command_of(wrong, ranks), self.folder)
             piped = self.run_here(*wrong, ranks=ranks).stderr
             self.assertEqual(status, 2, shown)
             lines = [line for line in piped.splitlines() if line.startswith("--set")]

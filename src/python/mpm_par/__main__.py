@@ -1,8 +1,7 @@
 """Says what a folder of results holds: columns, snapshots and fields, with their units."""
-import argparse
 import sys
 
-from mpm_par.problems import ResultsError, say
+from mpm_par.problems import Options, ResultsError, say
 from mpm_par.run import open_run
 
 
@@ -21,7 +20,7 @@ def describe(run):
 
 
 def main(words):
-    parser = argparse.ArgumentParser(prog="python3 -m mpm_par", description=__doc__)
+    parser = Options(prog="python3 -m mpm_par", description=__doc__)
     parser.add_argument("folder", help="folder of results of a run")
     try:
         print("\n".join(describe(open_run(parser.parse_args(words).folder))))

@@ -1,13 +1,12 @@
 """Leaves a report of a run, or of studies, in its folder: report.html, one page with all pictures
 in it, and the pictures as files in report/."""
-import argparse
 import importlib.util
 import re
 import sys
 import time
 
 from mpm_par import matplotlib_files, quantities
-from mpm_par.problems import ResultsError, say
+from mpm_par.problems import Options, ResultsError, say
 
 DONE, BAD_INPUT, FILE_FAILURE = 0, 2, 4
 PACKAGES = {"numpy": "python3-numpy", "h5py": "python3-h5py", "matplotlib": "python3-matplotlib",
@@ -19,8 +18,7 @@ class UsageError(Exception):
 
 
 def arguments_of(words):
-    parser = argparse.ArgumentParser(prog="mpm_report", description=__doc__,
-                                     epilog="See docs/reports.md.")
+    parser = Options(prog="mpm_report", description=__doc__, epilog="See docs/reports.md.")
     parser.add_argument("folder", help="folder of results of a run, such as results/my_wood, or of "
                                        "mpm_study")
     parser.add_argument("--at", nargs="+", default=[], metavar="VALUE",
