@@ -7,7 +7,7 @@
 #   sh jobscripts/test.sh -L performance  does everything still measure? docs/building.md, Benchmarks
 #   sh jobscripts/test.sh -L convergence  errors against exact solutions on four grids each
 #   sh jobscripts/test.sh -L stability    stiff and extreme scenes with every method
-#   sh jobscripts/test.sh -L long         the code of docs/contributing.md; many ranks
+#   sh jobscripts/test.sh -L long         the code of docs/contributing.md; many ranks; all wood
 #
 # The exit status is ctest's: 0 if every test passed. No test at all counts as a failure.
 set -eu

@@ -176,7 +176,7 @@ template <int Dim>
 ContactSums RigidWall<Dim>::stored(const Body<Dim>& body, double time) const
 {
   ContactSums sums;
-  Lanes energy = 0, way = 0;
+  Lanes energy = 0, way = 0, deepest = 0;
   for (LocalIndex b = 0; b < body.particles.blocks(); ++b) {
     const double* motion = body.particles.motion().block(b);
     const Lanes mass = load(motion + LeadingColumns<Dim>::mass * lane_count);
@@ -184,11 +184,13 @@ ContactSums RigidWall<Dim>::stored(const Body<Dim>& body, double time) const
     stdx::where(mass <= 0.0, depth) = 0.0;
     energy += 0.5 * push_per_mass(body) * mass * depth * depth;
     way += depth;
+    deepest = stdx::max(deepest, depth);
     sums.pairs += stdx::popcount(depth > 0.0);
   }
   sums.energy = stdx::reduce(energy);
-  sums.overlapped_area = stdx::reduce(way) * stiffness_.location_size.prod() /
-                         stiffness_.location_size[placement_.axis];
+  const double thickness = stiffness_.location_size[placement_.axis];
+  sums.overlapped_area = stdx::reduce(way) * stiffness_.location_size.prod() / thickness;
+  sums.deepest_overlap = stdx::hmax(deepest) / thickness;
   return sums;
 }
 

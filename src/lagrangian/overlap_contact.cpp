@@ -1,5 +1,6 @@
 #include <mpm/core/sieve.hpp>
 #include <mpm/lagrangian/overlap_contact.hpp>
+#include <mpm/parallel/session.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +31,11 @@ OverlapContact<Dim>::OverlapContact(MPI_Comm comm, Cells cells, double kappa, Bo
       kappa_(kappa)
 {
   set_cells(std::move(cells));
+  // Cells that failing ones lay bare later have no outlines of their own.
+  if constexpr (Dim == 2) {
+    for (const CellOutline& outline : outlines_) reach_ = std::max(reach_, outline.reach());
+    reach_ = largest_over_ranks(comm_, reach_);
+  }
 }
 
 template <int Dim>
@@ -40,8 +46,6 @@ void OverlapContact<Dim>::set_cells(Cells cells)
   near_.clear();
   pressing_.clear();
   work_then_.clear();
-  reach_ = Overlaps::reach;
-  for (const CellOutline& outline : outlines_) reach_ = std::max(reach_, outline.reach());
 }
 
 template <int Dim>
@@ -357,6 +361,26 @@ double OverlapContact<Dim>::overlapped_area() const
   double area = 0;
   for (const Touch& touch : touches_) area += 0.5 * touch.overlap;
   return area;
+}
+
+template <int Dim>
+double OverlapContact<Dim>::deepest_overlap() const
+{
+  double deepest = 0;
+  for (std::size_t c = 0; c + 1 < first_touch_.size(); ++c) {
+    const std::span touches(touches_.begin() + first_touch_[c],
+                            touches_.begin() + first_touch_[c + 1]);
+    const double volume = Overlaps::volume(values_of(LocalIndex(c)));
+    for (const Touch& one : touches) {
+      double together = 0;
+      for (const Touch& other : touches)
+        if (are_of_one_wall(locations_[std::size_t(one.other)],
+                            locations_[std::size_t(other.other)]))
+          together += other.overlap;
+      deepest = std::max(deepest, together / volume);
+    }
+  }
+  return deepest;
 }
 
 /// A pair counts half at either cell, as if both were of this rank, and none does for being listed:

@@ -97,8 +97,8 @@ Carried<Dim> TotalLagrangian<Dim>::carried() const
   for (std::size_t b = 0; b < cells_.size(); ++b)
     carried.elastic_energy += cells_[b].bending_energy(setup_.bodies[b], *nodes_);
   if (contact_)
-    carried.contact = {contact_->energy(), contact_->overlapped_area(), contact_->touching(),
-                       friction_work_};
+    carried.contact = {contact_->energy(), contact_->overlapped_area(), contact_->deepest_overlap(),
+                       contact_->touching(), friction_work_};
   for (const auto& condition : setup_.slots.conditions) {
     if (!condition->rubs()) continue;
     if (!carried.contact) carried.contact.emplace();
@@ -241,12 +241,13 @@ void TotalLagrangian<Dim>::scale_masses()
   }
 }
 
-/// Of the fastest node of the last check, in the longest steps: the next ones may be that long
-/// however short the last one was.
+/// Of a cell's corner, with the fastest node of the last check, in the longest steps: the next ones
+/// may be that long however short the last one was.
 template <int Dim>
 double TotalLagrangian<Dim>::way_to_next_check() const
 {
-  return steps_between_checks * std::max(setup_.longest_step, last_step_) * fastest_;
+  return contact_->reach() * steps_between_checks * std::max(setup_.longest_step, last_step_) *
+         fastest_;
 }
 
 template <int Dim>
@@ -257,8 +258,8 @@ double TotalLagrangian<Dim>::skin_of_pairs() const
 }
 
 /// Pairs stay if at the next check all will be among them that may meet before the one after it:
-/// nodes go one way until then, as far again on either side while that check looks ahead, and half
-/// a way more where they get faster.
+/// corners go one way until then, as far again on either side while that check looks ahead, and
+/// half a way more where they get faster.
 template <int Dim>
 void TotalLagrangian<Dim>::look_for_pairs(double way)
 {

@@ -191,6 +191,7 @@ const HistoryLine& History<Dim>::record(double dt)
   if (sums.contact) {
     line.contact_energy = sums.contact->energy;
     line.overlapped_area = sums.contact->overlapped_area;
+    line.deepest_overlap = sums.contact->deepest_overlap;
     line.contact_pairs = sums.contact->pairs;
     line.friction_work = sums.contact->friction_work;
   }

@@ -24,6 +24,7 @@ constexpr Member<double> measured[] = {{"time", &HistoryLine::time},
                                        {"external_work", &HistoryLine::external_work},
                                        {"contact_energy", &HistoryLine::contact_energy},
                                        {"overlapped_area", &HistoryLine::overlapped_area},
+                                       {"deepest_overlap", &HistoryLine::deepest_overlap},
                                        {"friction_work", &HistoryLine::friction_work},
                                        {"failed_energy", &HistoryLine::failed_energy},
                                        {"added_mass", &HistoryLine::added_mass},
@@ -72,6 +73,7 @@ std::vector<output::HistoryColumn> history_columns(const HistoryKind& kind)
     list.push_back({"contact_energy", "J"});
     list.push_back(kind.space ? output::HistoryColumn{"overlapped_volume", "m3"}
                               : output::HistoryColumn{"overlapped_area", "m2"});
+    list.push_back({"deepest_overlap", "1"});
     list.push_back({"contact_pairs", "1"});
   }
   if (kind.friction) list.push_back({"friction_work", "J"});
@@ -101,8 +103,8 @@ std::vector<double> history_row(const HistoryLine& line, const HistoryKind& kind
   values.insert(values.end(),
                 {line.kinetic_energy, line.elastic_energy, line.plastic_work, line.external_work});
   if (kind.contact)
-    values.insert(values.end(),
-                  {line.contact_energy, line.overlapped_area, double(line.contact_pairs)});
+    values.insert(values.end(), {line.contact_energy, line.overlapped_area, line.deepest_overlap,
+                                 double(line.contact_pairs)});
   if (kind.friction) values.push_back(line.friction_work);
   if (kind.failure) values.insert(values.end(), {double(line.failed_cells), line.failed_energy});
   if (kind.added_mass) values.push_back(line.added_mass);

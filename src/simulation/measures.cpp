@@ -48,7 +48,9 @@ Sums<Dim> sum_over_bodies(const Formulation<Dim>& formulation)
   sum_over_ranks(comm, sums);
   Sums<Dim> result{counts[0], counts[1], sums[0], sums[1], sums[2], sums[3] + sums[9 + Dim]};
   for (int d = 0; d < Dim; ++d) result.momentum[d] = sums[7 + d];
-  if (carried.contact) result.contact = {sums[4], sums[5], counts[2], sums[6]};
+  if (carried.contact)
+    result.contact = {sums[4], sums[5], largest_over_ranks(comm, carried.contact->deepest_overlap),
+                      counts[2], sums[6]};
   if (carried.failed)
     result.failed = {counts[3], counts[4], sums[7 + Dim], sums[8 + Dim], sums[9 + Dim]};
   if (carried.added_mass) result.added_mass = sums[10 + Dim];

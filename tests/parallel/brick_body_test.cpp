@@ -186,6 +186,9 @@ TEST(BrickBody, PressesAPlateOfOneBrickFromBothSides)
   const double depth = now.overlapped / (2 * 36 * size.prod());
   EXPECT_GT(depth, 1e-3);
   EXPECT_LT(depth, 0.05);
+  // The plate's bricks lie on both blocks, two locations apart and so one wall to them, with a part
+  // of what they are by now.
+  EXPECT_NEAR(now.deepest / (2 * depth), 1, 0.15);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ Scene<Dim> thrown(unsigned seed, const IndexVec<Dim>& period, double crooked)
 
 /// Energy, overlap and forces of all ranks' cells, and what friction of 0.3 does to them.
 struct Found {
-  double energy = 0, overlap = 0;
+  double energy = 0, overlap = 0, deepest = 0;
   GlobalIndex pairs = 0;
   std::vector<double> force, friction;
 };
@@ -79,6 +79,11 @@ Found contact_of(MPI_Comm comm, const Scene<Dim>& scene)
   BodyPairs bodies(1);
   bodies.add(0, 0, 0.3);
   OverlapContact<Dim> contact(comm, own, 2, bodies, size<Dim>(), scene.period);
+  if constexpr (Dim == 2) {
+    const double uneven = uneven_outline().reach();
+    EXPECT_GT(uneven, 1.1);
+    EXPECT_EQ(contact.reach(), scene.outlined ? uneven : 1) << "on every rank";
+  }
   contact.find_pairs(mesh.nodes, skin);
   contact.measure(mesh.nodes);
   contact.add_forces(mesh.fields);
@@ -112,6 +117,7 @@ Found contact_of(MPI_Comm comm, const Scene<Dim>& scene)
   sum_over_ranks(comm, found.friction);
   found.energy = sums[0];
   found.overlap = sums[1];
+  found.deepest = largest_over_ranks(comm, contact.deepest_overlap());
   found.pairs = contact.touching();
   sum_over_ranks(comm, std::span(&found.pairs, 1));
   return found;
@@ -122,6 +128,7 @@ void expect_alike(const Found& together, const Found& alone)
   EXPECT_EQ(together.pairs, alone.pairs);
   EXPECT_NEAR(together.energy / alone.energy, 1, 1e-12);
   EXPECT_NEAR(together.overlap / alone.overlap, 1, 1e-12);
+  EXPECT_NEAR(together.deepest / alone.deepest, 1, 1e-12);
   const double largest = std::ranges::max(alone.force);
   for (std::size_t k = 0; k < alone.force.size(); ++k) {
     ASSERT_NEAR(together.force[k] / largest, alone.force[k] / largest, 1e-11) << k;

@@ -15,6 +15,7 @@ struct SumsOfBodies {
   std::vector<double> places;  ///< m, all components of all cells' middles, by id
   double energy = 0, stored = 0, work = 0, bending = 0;  ///< J; stored: without the kinetic one
   double overlapped = 0;                                 ///< m^2, in space m^3
+  double deepest = 0;                                    ///< overlap, of a cell
   GlobalIndex pairs = 0, failed = 0;
   Vec<Dim> momentum = Vec<Dim>::Zero(), impulse = Vec<Dim>::Zero();
 
@@ -47,6 +48,7 @@ struct SumsOfBodies {
     }
     energy = stored + carried.kinetic_energy;
     overlapped = carried.contact->overlapped_area;
+    deepest = largest_over_ranks(comm, carried.contact->deepest_overlap);
     pairs = carried.contact->pairs;
     momentum = carried.momentum;
     take(stepper.take_reaction());

@@ -66,6 +66,12 @@ class Contact(ProgramTest):
             self.assertAlmostEqual(stress / exact, 1, delta=0.01)
         self.assertLess(max(abs(e) for e in history["energy_error"][10:]), 1e-4)
         self.assertLess(max(history["momentum_error"]), 1e-11)
+        # The plate's cells lie on both blocks, two locations apart and so one wall to them, with a part of
+        # what they are by now.
+        for strain, area, deepest in zip(history["strain"], history["overlapped_area"],
+                                         history["deepest_overlap"]):
+            if strain > 0.02:
+                self.assertAlmostEqual(deepest * (1 - strain) / (area / (25e-6 * 0.5e-3)), 1, delta=0.02)
         # Two faces of 0.5 mm, overlapped by less than 6 % of a location of 25 um.
         self.assertLess(max(history["overlapped_area"]), 0.06 * 25e-6 * 0.5e-3 * 2)
 

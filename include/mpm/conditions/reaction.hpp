@@ -5,6 +5,7 @@
 #include <mpm/core/archive.hpp>
 #include <mpm/core/types.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace mpm {
@@ -13,6 +14,8 @@ namespace mpm {
 struct ContactSums {
   double energy = 0;           ///< J
   double overlapped_area = 0;  ///< m^2; in space volume, m^3
+  /// Of a cell with all of one wall, or of a location with a rigid one: a part of it.
+  double deepest_overlap = 0;
   /// Of cells that touch, each counts for either; of particle and wall; of bodies at a node.
   GlobalIndex pairs = 0;
   double friction_work = 0;  ///< J, lost since the start
@@ -21,6 +24,7 @@ struct ContactSums {
   {
     energy += other.energy;
     overlapped_area += other.overlapped_area;
+    deepest_overlap = std::max(deepest_overlap, other.deepest_overlap);
     pairs += other.pairs;
     friction_work += other.friction_work;
     return *this;

@@ -41,12 +41,14 @@ class OverlapContact final : public SelfContact<Dim> {
   using typename SelfContact<Dim>::Cells;
 
   /// This rank's cells near surfaces; `size` of a location, m, and `period` in locations.
+  /// Collective.
   OverlapContact(MPI_Comm comm, Cells cells, double kappa, BodyPairs bodies, const Vec<Dim>& size,
                  const IndexVec<Dim>& period);
 
   void set_cells(Cells cells) override;
   void find_pairs(const MeshNodes<Dim>& nodes, double skin) override;
   double skin() const override { return skin_; }
+  double reach() const override { return reach_; }
   double largest_way(const MeshNodes<Dim>& nodes) const override;
   void measure(const MeshNodes<Dim>& nodes) override;
 
@@ -56,6 +58,7 @@ class OverlapContact final : public SelfContact<Dim> {
   void forget_stiffness() override;
   double energy() const override { return energy_; }
   double overlapped_area() const override;
+  double deepest_overlap() const override;
   GlobalIndex touching() const override { return GlobalIndex(touches_.size()); }
 
   void visit_work(
@@ -193,7 +196,7 @@ class OverlapContact final : public SelfContact<Dim> {
   Ghosts ghosts_, side_ghosts_;
   std::vector<Cell> cells_;
   std::vector<CellOutline> outlines_;
-  double reach_ = Overlaps::reach;  ///< way of a cell's corners over that of its nodes, at most
+  double reach_ = Overlaps::reach;
   BodyPairs bodies_;
   Vec<Dim> size_;
   IndexVec<Dim> period_;

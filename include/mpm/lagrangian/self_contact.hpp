@@ -46,6 +46,8 @@ class SelfContact {
   /// Finds all pairs that can meet before a node has moved by half of `skin`, m. Collective.
   virtual void find_pairs(const MeshNodes<Dim>& nodes, double skin) = 0;
   virtual double skin() const = 0;
+  /// Way of a corner of a cell over that of its nodes, at most, of all ranks' cells.
+  virtual double reach() const = 0;
   /// The largest way of a corner of this rank's cells since then, m.
   virtual double largest_way(const MeshNodes<Dim>& nodes) const = 0;
   /// Overlaps at the present places. Every rank calls it.
@@ -66,6 +68,8 @@ class SelfContact {
   virtual double energy() const = 0;  ///< J
   /// m^2, in space m^3; every overlap counts once on either cell, half each
   virtual double overlapped_area() const = 0;
+  /// The largest part of a cell that those of one wall lie on together.
+  virtual double deepest_overlap() const = 0;
   virtual GlobalIndex touching() const = 0;  ///< pairs, with others' halves
 
   /// visit(location, work), in the work of a cell without contact, for what a step does at it.

@@ -29,6 +29,7 @@ struct HistoryLine {
   double momentum_error = 0;
   double contact_energy = 0;      ///< J
   double overlapped_area = 0;     ///< m^2, in space volume, m^3
+  double deepest_overlap = 0;     ///< of a cell or location
   GlobalIndex contact_pairs = 0;  ///< of cells, or particle and wall
   double friction_work = 0;       ///< J, in contact between bodies, since the start
   GlobalIndex failed_cells = 0;   ///< since the start

@@ -86,6 +86,7 @@ TEST_P(PushingWall, IsTheDerivativeOfWhatItStores)
   const ContactSums sums = wall.stored(here, 0);
   EXPECT_EQ(sums.pairs, 2);
   EXPECT_NEAR(sums.overlapped_area, 0.16 * size[1 - axis], 1e-12);
+  EXPECT_NEAR(sums.deepest_overlap, 0.11 / size[axis], 1e-12);
 }
 
 TEST_P(PushingWall, BooksImpulseAndTheWorkOfItsFaceOnce)
