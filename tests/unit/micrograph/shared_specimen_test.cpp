@@ -157,7 +157,7 @@ TEST_F(SharedSpecimen, OfAStack)
   micrograph().depth = 5e-6;
   for (int slice = 0; slice < 5; ++slice) {  // walls that wander to the right
     Rows rows = noisy_picture();
-    for (auto& row : rows) std::ranges::rotate(row, row.end() - 2 * slice);
+    for (auto& row : rows) std::rotate(row.begin(), row.end() - 2 * slice, row.end());
     directory_.write("slice_" + std::to_string(8 + slice) + ".bmp", gray_bmp(rows));
   }
   micrograph().file = directory_ / "slice_*.bmp";
