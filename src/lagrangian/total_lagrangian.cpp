@@ -241,20 +241,19 @@ void TotalLagrangian<Dim>::scale_masses()
   }
 }
 
-/// Of a cell's corner, with the fastest node of the last check, in the longest steps: the next ones
-/// may be that long however short the last one was.
+/// Of the fastest node of the last check, in the longest steps: the next ones may be that long
+/// however short the last one was.
 template <int Dim>
 double TotalLagrangian<Dim>::way_to_next_check() const
 {
-  return contact_->reach() * steps_between_checks * std::max(setup_.longest_step, last_step_) *
-         fastest_;
+  return steps_between_checks * std::max(setup_.longest_step, last_step_) * fastest_;
 }
 
 template <int Dim>
 double TotalLagrangian<Dim>::skin_of_pairs() const
 {
-  return 2 *
-         std::max(least_way * setup_.location_size.minCoeff(), checks_ahead * way_to_next_check());
+  return 2 * std::max(least_way * setup_.location_size.minCoeff(),
+                      checks_ahead * contact_->reach() * way_to_next_check());
 }
 
 /// Pairs stay if at the next check all will be among them that may meet before the one after it:
@@ -263,7 +262,8 @@ double TotalLagrangian<Dim>::skin_of_pairs() const
 template <int Dim>
 void TotalLagrangian<Dim>::look_for_pairs(double way)
 {
-  if (way + 2.5 * way_to_next_check() < 0.5 * contact_->skin()) return;
+  const double to_next_check = contact_->reach() * way_to_next_check();
+  if (way + 2.5 * to_next_check < 0.5 * contact_->skin()) return;
   contact_->find_pairs(*nodes_, skin_of_pairs());
   contact_->measure(*nodes_);
   contact_->forget_stiffness();

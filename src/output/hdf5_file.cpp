@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <random>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
@@ -83,6 +84,19 @@ int expect_whole(int error, int count, MPI_Datatype type, const MPI_Status* stat
   return error;
 }
 
+/// The name beside it that nobody else uses, on every rank.
+std::filesystem::path name_of_its_own(MPI_Comm comm, const std::filesystem::path& file)
+{
+  std::uint64_t number = 0;
+  if (rank_of(comm) == 0) {
+    std::random_device random;
+    number = (std::uint64_t(random()) << 32) | random();
+  }
+  MPI_Bcast(&number, 1, MPI_UINT64_T, 0, comm);
+  return file.parent_path() / fmt::format("{}.{:016x}{}", file.stem().string(), number,
+                                          temporary_name(file.extension()).string());
+}
+
 }  // namespace
 
 Hdf5File::Hdf5File(MPI_Comm comm, std::filesystem::path file, Compression compression,
@@ -98,25 +112,39 @@ Hdf5File::Hdf5File(MPI_Comm comm, std::filesystem::path file, Compression compre
   H5Pset_fapl_mpio(access, comm_, MPI_INFO_NULL);
   H5Pset_all_coll_metadata_ops(access, true);
   H5Pset_coll_metadata_write(access, true);
-  id_ = H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
-  agree(id_ < 0 ? "create the file" : "");
-  file_in_writing = file_;
-  // Creating the file gave the room back.
-  on_rank_zero(comm_, [&] { reserve_room(temporary_, expected_bytes); });
+  // While it opens a file, Open MPI (4 and 5: sharedfp/sm) holds a semaphore of the machine with
+  // the file's last name. One that a killed run left behind stops every later run there for ever,
+  // and one of another user cannot be opened.
+  const std::filesystem::path opened = name_of_its_own(comm_, file_);
+  id_ = H5Fcreate(opened.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  try {
+    agree(id_ < 0 ? "create the file" : "");
+    file_in_writing = file_;
+    on_rank_zero(comm_, [&] {
+      give_name(opened, temporary_);
+      reserve_room(temporary_, expected_bytes);
+    });
+  } catch (const FileError&) {
+    give_up({opened, temporary_});
+    throw;
+  }
 }
 
 Hdf5File::~Hdf5File()
 {
-  if (finished_) return;
+  if (!finished_) give_up({temporary_});
+}
+
+void Hdf5File::give_up(std::initializer_list<std::filesystem::path> names) const
+{
   // A file that cannot be written cannot be closed either, and HDF5 1.10 crashes when it ends after
   // a failed close. What it holds is given back here, its name first.
   if (id_ >= 0) leave_files_open();
-  int rank = 0;
-  MPI_Comm_rank(comm_, &rank);
+  if (rank_of(comm_) > 0) return;
   std::error_code ignored;
-  if (rank == 0) {
-    std::filesystem::resize_file(temporary_, 0, ignored);
-    std::filesystem::remove(temporary_, ignored);
+  for (const std::filesystem::path& name : names) {
+    std::filesystem::resize_file(name, 0, ignored);
+    std::filesystem::remove(name, ignored);
   }
 }
 

@@ -76,14 +76,19 @@ std::filesystem::path temporary_name(const std::filesystem::path& file)
   return name;
 }
 
+void give_name(const std::filesystem::path& from, const std::filesystem::path& file)
+{
+  std::error_code error;
+  std::filesystem::rename(from, file, error);
+  if (error)
+    throw FileError(fmt::format("{}: cannot take its name ({}). Check what stands there.",
+                                file.string(), error.message()));
+}
+
 void rename_when_synced(const std::filesystem::path& temporary, const std::filesystem::path& file)
 {
   Descriptor(temporary, O_RDONLY).sync();
-  std::error_code error;
-  std::filesystem::rename(temporary, file, error);
-  if (error)
-    throw FileError(fmt::format("{}: cannot take its final name ({}). Check what stands there.",
-                                file.string(), error.message()));
+  give_name(temporary, file);
   const std::filesystem::path directory = file.parent_path();
   Descriptor(directory.empty() ? "." : directory, O_RDONLY | O_DIRECTORY).sync();
 }

@@ -4,13 +4,18 @@
 #include <mpm/output/state_file.hpp>
 #include <mpm/parallel/session.hpp>
 
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <mpi.h>
+#include <semaphore.h>
+#include <unistd.h>
 
 namespace mpm::output {
 namespace {
@@ -89,6 +94,33 @@ TEST(StateFile, ReplacesAnotherOne)
   second.put("time", std::vector{7.0 + rank()});
   write_state(MPI_COMM_WORLD, file, second);
   EXPECT_THAT(differences(read_state(MPI_COMM_WORLD, file), second), IsEmpty());
+}
+
+/// A run that is killed while Open MPI opens a file leaves a semaphore taken for every later run on
+/// that machine that opens a file of the same last name, in whatever folder.
+TEST(StateFile, WhatAKilledRunHeldStopsNoLaterOne)
+{
+  const auto file = fresh_file("held");
+  static const std::string name = "OMPIO_" + file.filename().string() + ".part";
+  if (rank() == 0) {
+    ASSERT_NE(sem_open(name.c_str(), O_CREAT, 0600, 0), SEM_FAILED);
+    std::signal(SIGALRM, [](int) {  // instead of waiting for ever
+      sem_unlink(name.c_str());
+      std::_Exit(1);
+    });
+    alarm(30);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  write_state(MPI_COMM_WORLD, file, some_state());
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank() == 0) {
+    alarm(0);
+    sem_unlink(name.c_str());
+  }
+  EXPECT_THAT(differences(read_state(MPI_COMM_WORLD, file), some_state()), IsEmpty());
+  if (rank() > 0) return;
+  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path()))
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
 }
 
 /// One bit anywhere in what a value says, or an end that is missing: every rank hears of it.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
 
@@ -53,6 +54,7 @@ class Hdf5File {
              std::span<const T> values);
   void set_root_attribute(const std::string& name, Identifier type, const void* value);
   void agree(const std::string& problem) const;
+  void give_up(std::initializer_list<std::filesystem::path> names) const;
 
   MPI_Comm comm_;
   std::filesystem::path file_;

@@ -11,6 +11,9 @@ namespace mpm::output {
 /// system.
 std::filesystem::path temporary_name(const std::filesystem::path& file);
 
+/// Renames a file, over one of that name. Throws FileError.
+void give_name(const std::filesystem::path& from, const std::filesystem::path& file);
+
 /// Syncs the temporary file, renames it and syncs the directory. Throws FileError.
 void rename_when_synced(const std::filesystem::path& temporary, const std::filesystem::path& file);
 
