@@ -335,7 +335,8 @@ def values():
 
 class Figures:
     """What a sentence quotes: {STUDY|RUN|FIGURE} is a figure of study.json in the unit of the tables,
-    {STUDY.TABLE|RUN|COLUMN} a cell of a kept table. {A beside B} is their difference in percent of
+    {STUDY.TABLE|RUN|COLUMN} a cell of a kept table, {STUDY.scatter|RUNS|FIGURE} mean and deviation of drawn
+    specimens, {STUDY.spread|RUNS|FIGURE} the latter in percent of the former. {A beside B} is their difference in percent of
     B, which may be `known`; {A over B} is their ratio, {A less B} their difference. Behind a colon
     stands how many digits to write."""
 
@@ -363,6 +364,9 @@ class Figures:
     def figure(self, asked):
         study, name, figure, *known = asked.split("|")
         study, _, kept = study.partition(".")
+        if kept in ("scatter", "spread"):
+            mean, deviation = self.scatter(self.studies[study], name, figure, asked)
+            return f"{mean} ± {deviation}" if kept == "scatter" else f"{100 * float(deviation) / float(mean):.0f} %"
         if kept:
             return self.cell(FOLDER / study / f"{kept}.csv", name, figure)
         study = self.studies[study]
@@ -370,6 +374,14 @@ class Figures:
         measure = one_of([measure for measure in study.record["measures"] if measure["name"] == figure], asked)
         value = run[f"{'known' if known else 'value'}_{figure}"]
         return "-" if value is None else study_facts.shown(measure, value)
+
+    @staticmethod
+    def scatter(study, name, figure, asked):
+        titles, rows = study_facts.scatter(study)
+        cell = one_of([row for row in rows if row[0] == name], asked)[titles.index(
+            study_facts.title(one_of([m for m in study_facts.numbers(study) if m["name"] == figure], asked)))]
+        mean, _, rest = cell.partition(" ± ")
+        return mean, rest.partition(" ")[0]
 
     @staticmethod
     def cell(path, name, column):
