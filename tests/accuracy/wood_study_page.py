@@ -41,6 +41,9 @@ LADDERS = runs.PROJECT / "docs" / "formulations" / "ladders.csv"
 IN_LADDERS = "loblolly, tangential", "poplar, tangential", "poplar, radial", "loblolly, radial"
 RISING_LINES = ("4", "8"), ("8", "16")  # times the plateau's last stress, beside the 2 and 4 of runs
 SAMPLED_STRAINS = 0.05, 0.10, 0.20, 0.26, 0.30, 0.35, 0.40, 0.50
+AGREEING = 0.2  # of the paper's figure
+YIELDING = 0.10, 0.20, 0.30, 0.40  # strains
+CRUSHED = 0.10  # from this strain on no wave of the start is left
 EARLY = 0.05  # strain
 DENSE_STRESS = 1e9  # Pa, about twice the cell wall's usual yield stress
 PLASTIC_WORK, AXIAL_STRESS = "plastic_work", "axial_stress"
@@ -85,19 +88,27 @@ def rising_line_rows(study, runs_of_it):
 
 
 def landmark_rows(study, runs_of_it):
-    """(titles, rows): where curves pass, the overshoot before a plateau, and the second hump that
-    yielding latewood leaves on one."""
+    """(titles, rows): where curves pass, the overshoot before a plateau, the second hump that yielding
+    latewood leaves on one, and how much of the work done so far is plastic, or kinetic energy."""
     rows = []
     for entry, run in runs_of_it:
+        plastic, done = (run.history.at(name, YIELDING) for name in ("plastic_work", "external_work"))
+        crushed = run.history["strain"] >= CRUSHED
+        moving = run.history["kinetic_energy"][crushed] / run.history["external_work"][crushed]
         first = run.history["stress"][run.history.strain_of("stress") <= EARLY]
         stresses = run.history.at("stress", SAMPLED_STRAINS)
         dense, hump = curve_landmarks.strain_at(run.history, DENSE_STRESS), curve_landmarks.hump(run.history)
         sampled = ["-" if numpy.isnan(stress) else study_facts.four_digits(stress / 1e6) for stress in stresses]
         rows.append([study_facts.name_of(study, entry), study_facts.four_digits(first.max() / 1e6), *sampled,
                      "-" if dense is None else f"{100 * dense:.3g}",
-                     *(("-", "-") if hump is None else (f"{100 * hump[0]:.2g}", f"{100 * hump[1]:.0f}"))])
+                     *(("-", "-") if hump is None else (f"{100 * hump[0]:.2g}", f"{100 * hump[1]:.0f}")),
+                     *("-" if numpy.isnan(share) else f"{share:.0f}" for share in 100 * plastic / done),
+                     f"{100 * moving.max():.2g}"])
     return ["run", f"highest up to {100 * EARLY:.0f} % (MPa)",
-            *(f"at {100 * strain:.0f} % (MPa)" for strain in SAMPLED_STRAINS), f"{DENSE_STRESS / 1e9:.0f} GPa at (%)", "hump: slope lost (%)", "hump at (%)"], rows
+            *(f"at {100 * strain:.0f} % (MPa)" for strain in SAMPLED_STRAINS),
+            f"{DENSE_STRESS / 1e9:.0f} GPa at (%)", "hump: slope lost (%)", "hump at (%)",
+            *(f"plastic at {100 * strain:.0f} % (%)" for strain in YIELDING),
+            f"kinetic energy from {100 * CRUSHED:.0f} % on, at most (%)"], rows
 
 
 def border_rows(study, runs_of_it):
@@ -253,10 +264,10 @@ def moduli_of_ladders():
     return table(["modulus, GPa", *(f"{method}, {cells} cells" for method, cells in methods), "paper"], lines)
 
 
-def how_well_known():
-    """Properties of Table 1 where walls yield at 500 MPa, with what is known of their errors."""
+def table_1():
+    """(wood, measure, found, known, numerical error, scatter): properties of Table 1 where walls yield at 500 MPa,
+    with what is known of their errors; None where there is none."""
     ladders, drawn = (read_study(FOLDER / name) for name in ("wood_error_bars", "wood_specimens"))
-    lines = []
     for wood, (name, label) in TABLE_1.items():
         study = read_study(FOLDER / name)
         run = one_of([run for run in study.record["runs"] if study_facts.name_of(study, run) == label], wood)
@@ -266,17 +277,28 @@ def how_well_known():
         for measure in study_facts.numbers(study):
             key = measure["name"]
             found, known = run[f"value_{key}"], run.get(f"known_{key}")
-            if not known:
-                continue
-            bar = finest.get(f"bar_{key}")
-            scatter = [piece[f"value_{key}"] for piece in pieces]
-            lines.append([wood, study_facts.title(measure),
-                          "-" if found is None else study_facts.shown(measure, found),
-                          "-" if bar is None else study_facts.shown(measure, float(f"{bar:.2g}")),
-                          study_facts.shown(measure, float(f"{statistics.stdev(scatter):.2g}"))
-                          if scatter and None not in scatter else "-",
-                          study_facts.shown(measure, known), study_facts.difference(found, known) or "-"])
-    return table(["wood", "property", "found", "numerical error", "from piece to piece", "paper", "difference"], lines)
+            if known:
+                scatter = [piece[f"value_{key}"] for piece in pieces]
+                yield (wood, measure, found, known, finest.get(f"bar_{key}"),
+                       statistics.stdev(scatter) if scatter and None not in scatter else None)
+
+
+def verdict(found, known, *errors):
+    if found is None:
+        return "-"
+    if abs(found / known - 1) <= AGREEING:
+        return "agrees"
+    return "undecided" if any(error and error > abs(found - known) for error in errors) else "differs"
+
+
+def how_well_known():
+    lines = []
+    for wood, measure, found, known, *errors in table_1():
+        shown_errors = ["-" if error is None else study_facts.shown(measure, float(f"{error:.2g}")) for error in errors]
+        lines.append([wood, study_facts.title(measure), "-" if found is None else study_facts.shown(measure, found),
+                      *shown_errors, study_facts.shown(measure, known), study_facts.difference(found, known) or "-",
+                      verdict(found, known, *errors)])
+    return table(["wood", "property", "found", "numerical error", "from piece to piece", "paper", "difference", ""], lines)
 
 
 def last_levels():
@@ -336,9 +358,9 @@ def values():
 class Figures:
     """What a sentence quotes: {STUDY|RUN|FIGURE} is a figure of study.json in the unit of the tables,
     {STUDY.TABLE|RUN|COLUMN} a cell of a kept table, {STUDY.scatter|RUNS|FIGURE} mean and deviation of drawn
-    specimens, {STUDY.spread|RUNS|FIGURE} the latter in percent of the former. {A beside B} is their difference in percent of
-    B, which may be `known`; {A over B} is their ratio, {A less B} their difference. Behind a colon
-    stands how many digits to write."""
+    specimens, {STUDY.spread|RUNS|FIGURE} the latter in percent of the former, {verdict|WOOD|FIGURE} the one on
+    a property of Table 1. {A beside B} is their difference in percent of B, which may be `known`; {A over B} is
+    their ratio, {A less B} their difference. Behind a colon stands how many digits to write."""
 
     QUOTED = re.compile(r"\{([a-z_]+(?:\.[a-z_]+)?\|[^{}]+?)(?::(\d))?\}")
     WORDS = " beside ", " over ", " less "
@@ -363,6 +385,9 @@ class Figures:
 
     def figure(self, asked):
         study, name, figure, *known = asked.split("|")
+        if study == "verdict":
+            return one_of([verdict(*numbers) for wood, measure, *numbers in table_1()
+                           if (wood, measure["name"]) == (name, figure)], asked)
         study, _, kept = study.partition(".")
         if kept in ("scatter", "spread"):
             mean, deviation = self.scatter(self.studies[study], name, figure, asked)
