@@ -41,6 +41,8 @@ def read_arguments():
                            help="of the colours (default: all frames, their largest 2 %% clipped)")
     arguments.add_argument("--log", action="store_true", help="logarithmic colours")
     arguments.add_argument("--edge", type=float, help="of a particle in m (default: measured)")
+    arguments.add_argument("--cut", type=float, metavar="SHARE",
+                           help="in space: only what lies behind this share of the depth, from 0 (back) to 1")
     arguments.add_argument("--width", type=int, default=900, help="of a frame in pixels")
     arguments.add_argument("-o", "--output", type=Path, help="directory (default: frames beside it)")
     return arguments.parse_args()
@@ -127,6 +129,13 @@ def colour_range(values, given):
         high = float(numpy.percentile(positive, 98))
         low = max(float(numpy.percentile(positive, 2)), 1e-4 * high)
     return low, high if high > low else low + 1.0
+
+
+def behind(source, depth):
+    """What of it lies at z up to `depth`."""
+    clip = simple.Clip(Input=source, ClipType="Plane", Invert=1)
+    clip.ClipType.Origin, clip.ClipType.Normal = [0.0, 0.0, depth], [0.0, 0.0, 1.0]
+    return clip
 
 
 def show_particles(source, edge, flat):
@@ -224,7 +233,8 @@ def main():
     flat = bounds[4] == bounds[5]
 
     view = make_view(bounds, edge, given)
-    display = simple.Show(show_particles(source, edge, flat), view)
+    shown = source if given.cut is None else behind(source, bounds[4] + given.cut * (bounds[5] - bounds[4]))
+    display = simple.Show(show_particles(shown, edge, flat), view)
     display.SetRepresentationType("Surface")
     if flat:
         display.Ambient, display.Diffuse, display.Specular = 1.0, 0.0, 0.0  # colours as in the bar

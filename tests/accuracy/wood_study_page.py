@@ -298,7 +298,8 @@ def how_well_known():
         lines.append([wood, study_facts.title(measure), "-" if found is None else study_facts.shown(measure, found),
                       *shown_errors, study_facts.shown(measure, known), study_facts.difference(found, known) or "-",
                       verdict(found, known, *errors)])
-    return table(["wood", "property", "found", "numerical error", "from piece to piece", "paper", "difference", ""], lines)
+    return table(["wood", "property", "found", "numerical error", "from piece to piece", "paper", "difference", "verdict"],
+                 lines)
 
 
 def last_levels():
