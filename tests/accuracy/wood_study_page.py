@@ -58,7 +58,9 @@ FRAMES = {  # strips: name of the picture, run, colour, strains
                    ("tangential", "500 MPa, tangential", PLASTIC_WORK, (0.146, 0.297, 0.446, 0.595))),
     "wood_poplar": tuple((way, way, colour, POPLAR) for colour in (PLASTIC_WORK, AXIAL_STRESS)
                          for way in ("radial", "tangential")),
-    "wood_ponderosa": (("tangential", "tangential", PLASTIC_WORK, (0, 0.05, 0.186, 0.30, 0.45)),)}
+    "wood_ponderosa": (("tangential", "tangential", PLASTIC_WORK, (0, 0.05, 0.186, 0.30, 0.45)),),
+    "own_wood": tuple((way, f"as it is, {way}, spacing 5.35 um", PLASTIC_WORK, POPLAR)
+                      for way in ("radial", "tangential"))}
 
 
 def onset_of_densification(run, line):
