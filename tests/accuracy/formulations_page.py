@@ -93,10 +93,21 @@ def at_zero(rows):
     return w2 - h2 * (w1 - w2) / (h1 - h2)
 
 
+def limit_of(rows):
+    """What the work of the last three levels, each of half the spacing, tends to; None where their changes do not
+    fall regularly, by half or near it."""
+    if len(rows) < 3:
+        return None
+    first, second, last = (row["work"] for row in rows[-3:])
+    falls = (first - second) / (second - last)
+    return last - (second - last) / (falls - 1) if 1.5 < falls < 4.5 else None
+
+
 def meeting():
     """Whether the formulations go to the same answer."""
     heads = ["geometry", "total, finest", "updated, finest", "updated, carried to h = 0",
-             "of the updated one's change from its coarsest level, toward the total one"]
+             "of the updated one's change from its coarsest level, toward the total one",
+             "total, carried on along its last three levels", "its last two are above that by"]
     lines = []
     for geometry in geometries():
         updated, total = ladder(geometry, "updated"), ladder(geometry, "total")
@@ -104,9 +115,12 @@ def meeting():
             continue
         finest = total[-1]["work"]
         gone = (updated[0]["work"] - updated[-1]["work"]) / (updated[0]["work"] - finest)
+        limit = limit_of(total)
+        above = [f"{100 * (row['work'] / limit - 1):+.2g}" for row in total[-2:]] if limit else []
         lines.append([NAMES[geometry], f"{finest / 1e6:.3g} ({total[-1]['cells']:.0f} cells)",
                       f"{updated[-1]['work'] / 1e6:.3g} ({updated[-1]['cells']:.0f} cells)",
-                      f"{at_zero(updated) / 1e6:.3g}", f"{100 * gone:.0f} %"])
+                      f"{at_zero(updated) / 1e6:.3g}", f"{100 * gone:.0f} %",
+                      f"{limit / 1e6:.3g}" if limit else "-", f"{' and '.join(above)} %" if limit else "-"])
     return table(heads, lines)
 
 

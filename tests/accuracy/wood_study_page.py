@@ -294,6 +294,7 @@ def verdict(found, known, *errors):
 
 
 def how_well_known():
+    """Table 1's properties beside what is known of their errors."""
     lines = []
     for wood, measure, found, known, *errors in table_1():
         shown_errors = ["-" if error is None else study_facts.shown(measure, float(f"{error:.2g}")) for error in errors]
