@@ -1,6 +1,7 @@
 # Everything comes from Debian / Ubuntu packages by name: see jobscripts/install_packages.sh.
 set(MPI_CXX_SKIP_MPICXX TRUE)
 find_package(MPI 3.0 REQUIRED COMPONENTS C CXX)
+find_package(Threads REQUIRED)
 
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET PETSc>=3.15)

@@ -10,6 +10,7 @@
 #include <mpm/scene/command_line.hpp>
 #include <mpm/scene/reader.hpp>
 #include <mpm/simulation/leave_report.hpp>
+#include <mpm/simulation/long_stage.hpp>
 #include <mpm/simulation/provenance.hpp>
 #include <mpm/simulation/run.hpp>
 #include <mpm/simulation/self_test.hpp>
@@ -64,6 +65,15 @@ void print_once(const std::string& text)
   if (rank_of(MPI_COMM_WORLD) == 0) fmt::print("{}", text);
 }
 
+/// Does it, and says so where it takes long.
+template <class Action>
+auto in_stage(const scene::CommandLine& command_line, const char* what, Action&& action)
+{
+  std::optional<LongStage> stage;
+  if (!command_line.quiet && rank_of(MPI_COMM_WORLD) == 0) stage.emplace(what);
+  return action();
+}
+
 /// Of steps, to say how long a run takes.
 constexpr double seconds_of_measurement = 1;
 
@@ -95,10 +105,13 @@ template <int Dim>
 void plan_and_run(const scene::CommandLine& command_line, const scene::Scene& scene,
                   std::optional<micrograph::Picture> picture, Ending& ending)
 {
-  const Preparation<Dim> preparation(MPI_COMM_WORLD, scene, std::move(picture));
+  const Preparation<Dim> preparation = in_stage(command_line, "looking at the specimen", [&] {
+    return Preparation<Dim>(MPI_COMM_WORLD, scene, std::move(picture));
+  });
   std::optional<StepMeasurement> measured;
   if (command_line.check && !command_line.quiet)
-    measured = measure_steps(preparation, seconds_of_measurement);
+    measured = in_stage(command_line, "measuring a second of steps",
+                        [&] { return measure_steps(preparation, seconds_of_measurement); });
   if (rank_of(MPI_COMM_WORLD) == 0) {
     if (command_line.quiet) {
       for (const std::string& warning : preparation.warnings) spdlog::warn(warning);
@@ -129,9 +142,11 @@ void read_and_run(const scene::CommandLine& command_line, Ending& ending)
   scene::Scene scene;
   std::optional<micrograph::Picture> picture;
   // Every rank reads: the same file gives the same scene, and an unreadable one stops all of them.
-  agree(MPI_COMM_WORLD, [&] {
-    scene = scene::read_scene(command_line.scene, command_line.overrides);
-    picture = micrograph::read_picture(scene);
+  in_stage(command_line, "reading the scene and its picture", [&] {
+    agree(MPI_COMM_WORLD, [&] {
+      scene = scene::read_scene(command_line.scene, command_line.overrides);
+      picture = micrograph::read_picture(scene);
+    });
   });
   if (scene.dimensions == 2)
     plan_and_run<2>(command_line, scene, std::move(picture), ending);

@@ -17,7 +17,8 @@ Session::Session(int argc, char** argv, const std::vector<std::string>& petsc_op
 {
   // Beyond a limit of size (ulimit -f) a write fails with words, instead of ending the program.
   std::signal(SIGXFSZ, SIG_IGN);
-  MPI_Init(&argc, &argv);
+  int level = MPI_THREAD_SINGLE;  // other threads (LongStage) make no calls
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);
   PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr);
   std::vector<std::string> words{argv[0]};
   words.insert(words.end(), petsc_options.begin(), petsc_options.end());

@@ -10,6 +10,7 @@
 #include <mpm/simulation/checkpoints.hpp>
 #include <mpm/simulation/exact_solution.hpp>
 #include <mpm/simulation/failure_snapshot.hpp>
+#include <mpm/simulation/long_stage.hpp>
 #include <mpm/simulation/progress.hpp>
 #include <mpm/simulation/results_folder.hpp>
 #include <mpm/simulation/run_summary.hpp>
@@ -102,8 +103,15 @@ class FolderWriter final : public Observer<Dim> {
 template <int Dim>
 class ProgressWriter final : public Observer<Dim> {
  public:
-  ProgressWriter(MPI_Comm comm, bool quiet) : writes_(rank_of(comm) == 0), quiet_(quiet) {}
-  void start(const HistoryKind& kind) override { loaded_ = kind.piston; }
+  ProgressWriter(MPI_Comm comm, bool quiet) : writes_(rank_of(comm) == 0), quiet_(quiet)
+  {
+    if (writes_ && !quiet_) start_.emplace("placing the particles");
+  }
+  void start(const HistoryKind& kind) override
+  {
+    start_.reset();
+    loaded_ = kind.piston;
+  }
   void line(const typename Observer<Dim>::State& state, const HistoryLine& line) override
   {
     const long steps = long(state.formulation.steps());
@@ -125,6 +133,7 @@ class ProgressWriter final : public Observer<Dim> {
 
  private:
   bool writes_, quiet_, loaded_ = false;
+  std::optional<LongStage> start_;
   Progress progress_;
 };
 

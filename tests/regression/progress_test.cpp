@@ -1,4 +1,5 @@
-// What a run says of its speed and of the time that is left.
+// What a program says of its stages, a run of its speed and of the time that is left.
+#include <mpm/simulation/long_stage.hpp>
 #include <mpm/simulation/progress.hpp>
 
 #include <chrono>
@@ -27,6 +28,20 @@ TEST(Progress, OfARunThatGoesOnCountsFromWhereItWentOn)
   EXPECT_LE(rate, 0.1);
   EXPECT_GE(rate, 0);
   EXPECT_NE(said.find(" left", at), std::string::npos) << said;
+}
+
+TEST(LongStage, SaysWhatItIsAtIfThatTakesLong)
+{
+  using namespace std::chrono_literals;
+  ::testing::internal::CaptureStdout();
+  {
+    const LongStage stage("reading the picture", 1ms);
+    std::this_thread::sleep_for(500ms);
+  }
+  {
+    const LongStage stage("nothing of note", 1h);
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "reading the picture ...\n");
 }
 
 }  // namespace

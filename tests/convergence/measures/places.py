@@ -22,10 +22,11 @@ def first_and_last(folder):
 
 
 def tip_deflection(folder, level):
-    """how far the last column of particles has come down"""
+    """how far the end has come down: the last column of particles, and half a particle on along the last two"""
     start, end = first_and_last(folder)
-    tip = start[:, 0] > start[:, 0].max() - 1e-9
-    return (start[tip, 1] - end[tip, 1]).mean()
+    columns = numpy.unique(start[:, 0].round(9))
+    last, before = ((start[at, 1] - end[at, 1]).mean() for at in (abs(start[:, 0] - x) < 1e-8 for x in columns[:-3:-1]))
+    return last + 0.5 * (last - before)
 
 
 def length(folder, level):
