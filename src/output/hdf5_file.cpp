@@ -93,8 +93,8 @@ std::filesystem::path name_of_its_own(MPI_Comm comm, const std::filesystem::path
     number = (std::uint64_t(random()) << 32) | random();
   }
   MPI_Bcast(&number, 1, MPI_UINT64_T, 0, comm);
-  return file.parent_path() / fmt::format("{}.{:016x}{}", file.stem().string(), number,
-                                          temporary_name(file.extension()).string());
+  return temporary_name(file.parent_path() / fmt::format("{}.{:016x}{}", file.stem().string(),
+                                                         number, file.extension().string()));
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ def first_and_last(folder):
 def tip_deflection(folder, level):
     """how far the end has come down: the last column of particles, and half a particle on along the last two"""
     start, end = first_and_last(folder)
-    columns = numpy.unique(start[:, 0].round(9))
-    last, before = ((start[at, 1] - end[at, 1]).mean() for at in (abs(start[:, 0] - x) < 1e-8 for x in columns[:-3:-1]))
+    _, column = numpy.unique(start[:, 0].round(9), return_inverse=True)
+    *_, before, last = numpy.bincount(column, start[:, 1] - end[:, 1]) / numpy.bincount(column)
     return last + 0.5 * (last - before)
 
 
