@@ -16,12 +16,13 @@ TOP = (ROOT / "CMakeLists.txt").read_text()
 TYPES = (ROOT / "cmake/build_types.cmake").read_text()
 STUDY = (ROOT / "src/study/CMakeLists.txt").read_text()
 REPORT = (ROOT / "src/python/CMakeLists.txt").read_text()
-# What CMake asks for, by Spack's name; pkg-config and Python are tools.
+# What CMake asks for, by Spack's name; pkg-config and Python are tools, threads the compiler's.
 IN_SPACK = {"MPI": "mpi", "PETSc": "petsc", "HDF5": "hdf5", "metis.h": "metis", "Eigen3": "eigen",
             "yaml-cpp": "yaml-cpp", "CLI11": "cli11", "fmt": "fmt", "spdlog": "spdlog",
             "udunits": "udunits", "muparser": "muparser", "TIFF": "libtiff",
             "stb_image.h": "stb", "ZLIB": "zlib-api",
-            "pugixml": "pugixml", "nlohmann_json": "nlohmann-json", "PkgConfig": "pkgconfig"}
+            "pugixml": "pugixml", "nlohmann_json": "nlohmann-json", "PkgConfig": "pkgconfig",
+            "Threads": "cxx"}
 # What the report imports, by Spack's name where that is not the module's own.
 MODULES_IN_SPACK = {"PIL": "py-pillow", "yaml": "py-pyyaml"}
 
@@ -75,7 +76,7 @@ class Recipes(unittest.TestCase):
                 self.assertIn(f"@{version}:", needs[IN_SPACK[name]])
         others = set(needs) - set(IN_SPACK.values())
         imported = {MODULES_IN_SPACK.get(module, f"py-{module}") for module in PACKAGES}
-        self.assertEqual(others, {"c", "cxx", "cmake", "python"} | imported)
+        self.assertEqual(others, {"c", "cmake", "python"} | imported)
         minimum = re.search(r"cmake_minimum_required\(VERSION ([\d.]+)", TOP)
         self.assertIn(f"@{minimum[1]}:", needs["cmake"])
 
