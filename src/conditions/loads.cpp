@@ -33,16 +33,10 @@ void Loads<Dim>::scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfe
   if (!on_particles_) return;
   transfer.outside_force(part, grid, fields.load_force_column(),
                          [&](LocalIndex block, Lanes(&force)[Dim]) {
-                           add_to_particles(part.body, block, time, force);
+                           for (const auto& load : loads_)
+                             load->add_to_particles(part.body, block, time, force);
                            return true;
                          });
-}
-
-template <int Dim>
-void Loads<Dim>::add_to_particles(const Body<Dim>& body, LocalIndex block, double time,
-                                  Lanes (&force)[Dim]) const
-{
-  for (const auto& load : loads_) load->add_to_particles(body, block, time, force);
 }
 
 template <int Dim>

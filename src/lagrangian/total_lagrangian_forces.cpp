@@ -3,6 +3,7 @@
 #include <mpm/lagrangian/total_lagrangian.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace mpm {
 
@@ -75,29 +76,54 @@ void TotalLagrangian<Dim>::gather_cell_forces()
   }
 }
 
-/// An equal part of each to each corner of its cell, as a partial sum.
+namespace {
+
+/// What each corner of a cell bears of a load on it: of one on the surface those of the face that
+/// is seen, as the load acts there and not in the middle of the cell.
+template <int Dim>
+std::array<double, LocationMesh<Dim>::corners> shares_of_corners(const Load<Dim>& load)
+{
+  constexpr int corners = LocationMesh<Dim>::corners;
+  std::array<double, corners> shares;
+  shares.fill(1.0 / corners);
+  if (const auto mark = load.mark())
+    for (int c = 0; c < corners; ++c)
+      shares[std::size_t(c)] =
+          LocationMesh<Dim>::offset_of(c)[mark->axis] == int(mark->upper) ? 2.0 / corners : 0.0;
+  return shares;
+}
+
+}  // namespace
+
+/// Of each to the corners of its cell, as a partial sum.
 template <int Dim>
 void TotalLagrangian<Dim>::add_loads_on_particles()
 {
   const Loads<Dim>& loads = setup_.slots.loads;
   std::fill(fields_->load_force.begin(), fields_->load_force.end(), 0.0);
-  if (!loads.act_on_particles()) return;
+  for (const auto& load : loads.all())
+    if (load->acts_on_particles())
+      for (std::size_t b = 0; b < bodies().size(); ++b) add_load(*load, b);
+}
+
+template <int Dim>
+void TotalLagrangian<Dim>::add_load(const Load<Dim>& load, std::size_t b)
+{
   constexpr int corners = LocationMesh<Dim>::corners;
-  const std::vector<Body<Dim>>& bodies = this->bodies();
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    for (LocalIndex block = 0; block < bodies[b].particles.blocks(); ++block) {
-      Lanes force[Dim];
-      for (Lanes& component : force) component = 0.0;
-      loads.add_to_particles(bodies[b], block, time_, force);
-      const LocalIndex* node = &cells_[b].corner_nodes()[std::size_t(block) * corners * lane_count];
-      const int count =
-          std::min<LocalIndex>(lane_count, bodies[b].particles.size() - block * lane_count);
-      for (int lane = 0; lane < count; ++lane)
-        for (int c = 0; c < corners; ++c)
-          for (int d = 0; d < Dim; ++d)
-            fields_->load_force[std::size_t(node[c * lane_count + lane]) * Dim + std::size_t(d)] +=
-                force[d][lane] / corners;
-    }
+  const auto shares = shares_of_corners(load);
+  const Body<Dim>& body = bodies()[b];
+  for (LocalIndex block = 0; block < body.particles.blocks(); ++block) {
+    Lanes force[Dim];
+    for (Lanes& component : force) component = 0.0;
+    load.add_to_particles(body, block, time_, force);
+    const LocalIndex* node = &cells_[b].corner_nodes()[std::size_t(block) * corners * lane_count];
+    const int count = std::min<LocalIndex>(lane_count, body.particles.size() - block * lane_count);
+    for (int lane = 0; lane < count; ++lane)
+      for (int c = 0; c < corners; ++c)
+        for (int d = 0; d < Dim; ++d)
+          fields_->load_force[std::size_t(node[c * lane_count + lane]) * Dim + std::size_t(d)] +=
+              shares[std::size_t(c)] * force[d][lane];
+  }
 }
 
 template void TotalLagrangian<2>::add_forces(double);
@@ -106,5 +132,7 @@ template void TotalLagrangian<2>::book_friction(double);
 template void TotalLagrangian<3>::book_friction(double);
 template void TotalLagrangian<2>::add_loads_on_particles();
 template void TotalLagrangian<3>::add_loads_on_particles();
+template void TotalLagrangian<2>::add_load(const Load<2>&, std::size_t);
+template void TotalLagrangian<3>::add_load(const Load<3>&, std::size_t);
 
 }  // namespace mpm

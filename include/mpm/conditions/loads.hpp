@@ -6,6 +6,7 @@
 #include <mpm/transfer/transfer.hpp>
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace mpm {
@@ -24,9 +25,7 @@ class Loads {
   /// P2G of the forces on particles: a partial sum, as other node values.
   void scatter(const BodyPart<Dim>& part, const Transfer<Dim>& transfer,
                const GridTopology<Dim>& grid, NodeFields<Dim>& fields, double time) const;
-  /// The forces at `time` on the particles of one block of a body, N.
-  void add_to_particles(const Body<Dim>& body, LocalIndex block, double time,
-                        Lanes (&force)[Dim]) const;
+  std::span<const std::unique_ptr<Load<Dim>>> all() const { return loads_; }
   using Runs = std::span<const NodeRun<Dim>>;
   /// Adds the forces on nodes, and all load forces to the nodes' force.
   void apply(const Nodes<Dim>& nodes, Runs runs, NodeFields<Dim>& fields, double time,

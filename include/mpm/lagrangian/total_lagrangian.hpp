@@ -96,6 +96,7 @@ class TotalLagrangian final : public Formulation<Dim> {
   void book_friction(double dt);
   void lead_rigid_bodies(double dt);
   void add_loads_on_particles();
+  void add_load(const Load<Dim>& load, std::size_t body);
   double way_to_next_check() const;
   double skin_of_pairs() const;
   void look_for_pairs(double way);
