@@ -19,6 +19,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import typing
 from pathlib import Path
 
 import numpy
@@ -53,6 +54,7 @@ TABLE_1 = {  # wood and direction: study and run
     "loblolly, tangential": ("wood_yield", "500 MPa, tangential"),
     "poplar, radial": ("wood_poplar", "radial"), "poplar, tangential": ("wood_poplar", "tangential"),
     "ponderosa, tangential": ("wood_ponderosa", "tangential")}
+LADDERS_OF_WOODS = "wood_error_bars", "wood_fine_cells"
 FRAMES = {  # strips: name of the picture, run, colour, strains
     "wood_yield": (("radial", "500 MPa, radial", PLASTIC_WORK, (0.048, 0.168, 0.288, 0.457, 0.595)),
                    ("tangential", "500 MPa, tangential", PLASTIC_WORK, (0.146, 0.297, 0.446, 0.595))),
@@ -266,48 +268,68 @@ def moduli_of_ladders():
     return table(["modulus, GPa", *(f"{method}, {cells} cells" for method, cells in methods), "paper"], lines)
 
 
+class Property(typing.NamedTuple):
+    """One of Table 1 where walls yield at 500 MPa, in SI units; None for what is not known."""
+    wood: str
+    measure: dict
+    found: float | None
+    error: float | None
+    finer: float | None  # on finer cells than the paper's
+    finer_error: float | None
+    scatter: float | None
+    known: float
+
+    def best(self):
+        """What the drawing has as far as is known, and the numerical error of it."""
+        return (self.found, self.error) if self.finer is None else (self.finer, self.finer_error)
+
+    def verdict(self):
+        best, error = self.best()
+        if best is None:
+            return "-"
+        away = abs(best - self.known)
+        if away <= AGREEING * self.known:
+            return "agrees"
+        return "undecided" if away < max(error or 0, self.scatter or 0) else "differs"
+
+
 def table_1():
-    """(wood, measure, found, known, numerical error, scatter): properties of Table 1 where walls yield at 500 MPa,
-    with what is known of their errors; None where there is none."""
-    ladders, drawn = (read_study(FOLDER / name) for name in ("wood_error_bars", "wood_specimens"))
+    ladders, finer, drawn = (read_study(FOLDER / name) for name in (*LADDERS_OF_WOODS, "wood_specimens"))
     for wood, (name, label) in TABLE_1.items():
         study = read_study(FOLDER / name)
         run = one_of([run for run in study.record["runs"] if study_facts.name_of(study, run) == label], wood)
-        finest = one_of([run for run in ladders.record["runs"]
-                         if run["label"] == wood and study_facts.is_finest(ladders, run)], wood)
+        finest, finest_of_finer = (one_of([run for run in ladder.record["runs"] if run["label"] == wood
+                                           and study_facts.is_finest(ladder, run)], wood) for ladder in (ladders, finer))
         pieces = [piece for piece in drawn.record["runs"] if wood == f"loblolly, {piece['label'].split(', ')[0]}"]
         for measure in study_facts.numbers(study):
-            key = measure["name"]
-            found, known = run[f"value_{key}"], run.get(f"known_{key}")
-            if known:
-                scatter = [piece[f"value_{key}"] for piece in pieces]
-                yield (wood, measure, found, known, finest.get(f"bar_{key}"),
-                       statistics.stdev(scatter) if scatter and None not in scatter else None)
-
-
-def verdict(found, known, *errors):
-    if found is None:
-        return "-"
-    if abs(found / known - 1) <= AGREEING:
-        return "agrees"
-    return "undecided" if any(error and error > abs(found - known) for error in errors) else "differs"
+            value, bar, known = (f"{what}_{measure['name']}" for what in ("value", "bar", "known"))
+            if run.get(known):
+                scatter = [piece[value] for piece in pieces]
+                yield Property(wood, measure, run[value], finest.get(bar), finest_of_finer.get(value),
+                               finest_of_finer.get(bar), statistics.stdev(scatter) if scatter and None not in scatter else None,
+                               run[known])
 
 
 def how_well_known():
     """Table 1's properties beside what is known of their errors."""
     lines = []
-    for wood, measure, found, known, *errors in table_1():
-        shown_errors = ["-" if error is None else study_facts.shown(measure, float(f"{error:.2g}")) for error in errors]
-        lines.append([wood, study_facts.title(measure), "-" if found is None else study_facts.shown(measure, found),
-                      *shown_errors, study_facts.shown(measure, known), study_facts.difference(found, known) or "-",
-                      verdict(found, known, *errors)])
-    return table(["wood", "property", "found", "numerical error", "from piece to piece", "paper", "difference", "verdict"],
-                 lines)
+    for one in table_1():
+        def shown(value, one=one):
+            return "-" if value is None else study_facts.shown(one.measure, value)
+
+        def error(value):
+            return "-" if value is None else shown(float(f"{value:.2g}"))
+
+        lines.append([one.wood, study_facts.title(one.measure), shown(one.found), error(one.error), shown(one.finer),
+                      error(one.finer_error), error(one.scatter), shown(one.known),
+                      study_facts.difference(one.best()[0], one.known) or "-", one.verdict()])
+    return table(["wood", "property", "found", "numerical error", "on finer cells", "numerical error of that",
+                  "from piece to piece", "paper", "difference", "verdict"], lines)
 
 
-def last_levels():
-    """How far the finest runs of wood_error_bars are from the next ones."""
-    study = read_study(FOLDER / "wood_error_bars")
+def last_levels(name):
+    """How far the finest runs of a ladder of all woods are from the next ones."""
+    study = read_study(FOLDER / name)
     measures = study_facts.numbers(study)
     lines = []
     for label in dict.fromkeys(run["label"] for run in study.record["runs"]):
@@ -335,7 +357,7 @@ def took():
 def values():
     """What may stand in braces in wood_study_page.md."""
     found = {"took": took(), "moduli_of_ladders": moduli_of_ladders(), "how_well_known": how_well_known(),
-             "last_levels": last_levels()} | again()
+             **{f"{name}_last_levels": last_levels(name) for name in LADDERS_OF_WOODS}} | again()
     for folder in study_folders(FOLDER):
         study = read_study(folder)
         for name in TABLES:
@@ -390,8 +412,8 @@ class Figures:
     def figure(self, asked):
         study, name, figure, *known = asked.split("|")
         if study == "verdict":
-            return one_of([verdict(*numbers) for wood, measure, *numbers in table_1()
-                           if (wood, measure["name"]) == (name, figure)], asked)
+            return one_of([one.verdict() for one in table_1()
+                           if (one.wood, one.measure["name"]) == (name, figure)], asked)
         study, _, kept = study.partition(".")
         if kept in ("scatter", "spread"):
             mean, deviation = self.scatter(self.studies[study], name, figure, asked)
