@@ -292,6 +292,12 @@ class Property(typing.NamedTuple):
             return "agrees"
         return "undecided" if away < max(error or 0, self.scatter or 0) else "differs"
 
+    def shown(self, value):
+        return "-" if value is None else study_facts.shown(self.measure, value)
+
+    def shown_error(self, value):
+        return "-" if value is None else self.shown(float(f"{value:.2g}"))
+
 
 def table_1():
     ladders, finer, drawn = (read_study(FOLDER / name) for name in (*LADDERS_OF_WOODS, "wood_specimens"))
@@ -314,15 +320,9 @@ def how_well_known():
     """Table 1's properties beside what is known of their errors."""
     lines = []
     for one in table_1():
-        def shown(value, one=one):
-            return "-" if value is None else study_facts.shown(one.measure, value)
-
-        def error(value):
-            return "-" if value is None else shown(float(f"{value:.2g}"))
-
-        lines.append([one.wood, study_facts.title(one.measure), shown(one.found), error(one.error), shown(one.finer),
-                      error(one.finer_error), error(one.scatter), shown(one.known),
-                      study_facts.difference(one.best()[0], one.known) or "-", one.verdict()])
+        lines.append([one.wood, study_facts.title(one.measure), one.shown(one.found), one.shown_error(one.error),
+                      one.shown(one.finer), one.shown_error(one.finer_error), one.shown_error(one.scatter),
+                      one.shown(one.known), study_facts.difference(one.best()[0], one.known) or "-", one.verdict()])
     return table(["wood", "property", "found", "numerical error", "on finer cells", "numerical error of that",
                   "from piece to piece", "paper", "difference", "verdict"], lines)
 
