@@ -1,7 +1,7 @@
 """Both formulations on the same geometries, to 40 % strain: rings, crops and shipped woods.
 
-    formulations.py MPM_PAR [--quick] [--geometry NAME ...] [--smallest K] [--largest K]
-                            [--real DIR] [--work DIR] [--write | --beside] [--kept]
+    formulations.py MPM_PAR [--quick] [--geometry NAME ...] [--formulation NAME ...]
+                            [--smallest K] [--largest K] [--real DIR] [--work DIR] [--write | --beside] [--kept]
     formulations.py MPM_PAR --hinges | --anew [--geometry NAME ...] [--largest K] [--real DIR] [--work DIR] [--write]
 
 Rings are drawn anew at every level. Of a picture the geometry is that of the coarsest level: each of its
@@ -127,8 +127,8 @@ def crop(x):
                      f"threshold: 150, crop: [{x}, 60, 90, 70]}}"])
 
 
-def wood(name, size, cells, levels=([1, 2, 4], [1, 2, 4, 8])):
-    return Geometry(WOOD / f"{name}.yaml", size, cells, levels, [FAST])
+def wood(name, size, cells):
+    return Geometry(WOOD / f"{name}.yaml", size, cells, ([1, 2, 4, 8],) * 2, [FAST])
 
 
 def geometries():
@@ -140,7 +140,7 @@ def geometries():
             "thin_ring": Geometry(RING, [100e-6, 100e-6], [10, 10], ([1, 2, 4, 8, 16], [1, 2, 4, 8]),
                                   [thin], drawn=True),
             "earlywood": crop(40), "latewood": crop(190),
-            "loblolly_radial": wood("loblolly_radial", *loblolly, ([1, 2, 4, 8], [1, 2, 4, 8])),
+            "loblolly_radial": wood("loblolly_radial", *loblolly),
             "loblolly_tangential": wood("loblolly_tangential", *loblolly),
             "poplar_radial": wood("poplar_radial", *poplar),
             "poplar_tangential": wood("poplar_tangential", *poplar),
@@ -157,13 +157,13 @@ def real(folder, work):
         scene.write_text(f"specimen: {{micrograph: {picture}, pixel_size: {pixel} um, threshold: 128}}\n"
                          "loading: {piston: right, speed: 50 m/s, strain: 40 %}\n")
         found[name] = Geometry(scene, [1e-6 * pixel * width, 1e-6 * pixel * abs(height)],
-                               [75, round(75 * abs(height) / width)], ([1, 2, 4], [1, 2, 4, 8]))
+                               [75, round(75 * abs(height) / width)], ([1, 2, 4, 8],) * 2)
     return found
 
 
-def planned(found, smallest, largest):
+def planned(found, formulations, smallest, largest):
     """(name, formulation, k), the cheapest first."""
-    plan = [(name, formulation, k) for name, geometry in found.items() for formulation in FORMULATIONS
+    plan = [(name, formulation, k) for name, geometry in found.items() for formulation in formulations
             for k in geometry.levels[formulation] if smallest <= k <= largest]
     return sorted(plan, key=lambda one: (one[2] ** 3 * (8 if one[1] == "total" else 1)))
 
@@ -188,6 +188,7 @@ def main():
     for kind in ("--quick", "--hinges", "--anew"):
         kinds.add_argument(kind, action="store_true")
     arguments.add_argument("--geometry", nargs="+")
+    arguments.add_argument("--formulation", nargs="+", choices=FORMULATIONS, default=[*FORMULATIONS])
     arguments.add_argument("--smallest", type=int, default=1)
     arguments.add_argument("--largest", type=int, default=16)
     arguments.add_argument("--real", type=Path)
@@ -213,7 +214,7 @@ def main():
     pictures = {name: geometry.base(given.mpm_par, given.work, name)
                 for name, geometry in found.items()}
     table = runs.CurveTable(STRAINS, figures_of)
-    for name, formulation, k in planned(found, given.smallest, 1 if given.quick else given.largest):
+    for name, formulation, k in planned(found, given.formulation, given.smallest, 1 if given.quick else given.largest):
         geometry = found[name]
         settings = geometry.settings_at(formulation, k, pictures[name])
         if given.kept and not runs.kept_cost(given.mpm_par, geometry.scene, settings, given.work):
