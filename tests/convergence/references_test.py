@@ -9,6 +9,7 @@ import numpy
 sys.path.insert(0, str(Path(__file__).with_name("references")))
 import honeycomb
 import measures
+import ring
 import thick_cylinder
 from finite_elements import Plane, four_sided, patch
 
@@ -52,6 +53,11 @@ class References(unittest.TestCase):
         found = honeycomb.loaded(honeycomb.cell(0.3, 2, 0.33, 1e-3),
                                  numpy.linspace(0, 5e-3, 21)[1:], 0.0)
         self.assertAlmostEqual(found[-1, 0] / 1e-3 / (2 / 3 * 0.3), 1, delta=2e-3)
+
+    def test_the_ring_between_plates(self):
+        # Timoshenko (Strength of Materials II): shortened by (pi/4 - 2/pi) F R^3 / EI at first.
+        self.assertAlmostEqual(2 * (1 - ring.half_height(1e-3)) / (2e-3 * (numpy.pi / 4 - 2 / numpy.pi)), 1, delta=1e-3)
+        self.assertAlmostEqual(ring.mean_stress() / exact("ring_between_plates"), 1, delta=1e-3)
 
     def test_energy_of_the_bent_wall(self):
         # The formula of bent_wall.yaml

@@ -22,6 +22,13 @@ def last_stress(folder, level, share=0.2):
     return stress[strain > (1 - share) * strain[-1]].mean()
 
 
+def mean_stress(folder, level):
+    """mean stress over all of the strain"""
+    history = History(folder)
+    strain, stress = history["strain"], history["stress"]
+    return (0.5 * (stress[1:] + stress[:-1]) * numpy.diff(strain)).sum() / (strain[-1] - strain[0])
+
+
 def over_solid(folder, level, bulk_modulus, yield_stress):
     """last stress over that of a solid that fills everything, at the specimen's relative density"""
     history = History(folder)
