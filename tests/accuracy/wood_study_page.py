@@ -174,13 +174,19 @@ def take(results):
             if rows:
                 with open(place / f"{name}.csv", "w", newline="", encoding="utf-8") as file:
                     csv.writer(file, lineterminator="\n").writerows([titles, *rows])
-        for picture in FOLDER.glob(f"{folder.name}_*.png"):
+        for picture in pictures_of(folder.name):
             picture.unlink()
         for picture in (Path(results) / "report").glob(f"{folder.name}_curves*.png"):
             if picture.name in TEXT.read_text():
                 shutil.copyfile(picture, FOLDER / picture.name)
         for name, pictures in strips.items():
             strip(pictures, FOLDER / name)
+
+
+def pictures_of(name):
+    """Those kept of this study, not of others whose names begin alike."""
+    longer = tuple(f"{folder.name}_" for folder in study_folders(FOLDER) if folder.name.startswith(f"{name}_"))
+    return [picture for picture in FOLDER.glob(f"{name}_*.png") if not picture.name.startswith(longer)]
 
 
 def frames(run, colour, strains):

@@ -6,7 +6,7 @@ and what hangs free between is shorter.
     ring.py    mean stress of the scene, Pa, to 40 % strain
 """
 import numpy
-from scipy.integrate import solve_ivp, trapezoid
+from scipy.integrate import cumulative_trapezoid, solve_ivp
 from scipy.optimize import brentq
 
 DIAMETER, WALL, MODULUS = 100e-6, 5e-6, 10e9 / (1 - 0.3**2)  # of the scene; in plane strain
@@ -35,10 +35,7 @@ def mean_stress(strain=0.4, steps=200):
     forces = numpy.linspace(0, 4, steps + 1)
     strains = [2 * radius * (1 - half_height(force)) / DIAMETER for force in forces]
     stresses = 2 * forces * stiffness / radius**2 / DIAMETER
-    reached = numpy.interp(strain, strains, stresses)
-    strains, stresses = (numpy.append(values[:numpy.searchsorted(strains, strain)], last)
-                         for values, last in ((strains, strain), (stresses, reached)))
-    return trapezoid(stresses, strains) / strain
+    return numpy.interp(strain, strains, cumulative_trapezoid(stresses, strains, initial=0)) / strain
 
 
 if __name__ == "__main__":
