@@ -1,4 +1,4 @@
-"""Runs stiff and extreme scenes with every shape function and scheme and says which hold.
+"""Runs stiff and extreme scenes with both formulations, every shape function and scheme, and says which hold.
 
     atlas.py MPM_PAR [--case NAME ...] [--method NAME ...] [--quick] [--long] [--csv FILE] [--write]
 
@@ -35,7 +35,8 @@ VERDICTS = ("holds", "degrades", "fails")
 SLACK = 0.25
 FIGURES = ("gain", "loss", "ratio_low", "ratio_high", "through", "gap", "pieces", "momentum",
            "turned", "growth", "stiffness")
-COLUMNS = ("case", "scene", "shape_function", "scheme", "update_order", "cfl", "verdict", "beyond",
+TOTAL = "total lagrangian"  # the method that has neither shape functions nor schemes
+COLUMNS = ("case", "scene", "formulation", "shape_function", "scheme", "update_order", "cfl", "verdict", "beyond",
            *FIGURES, "steps", "failed_at", "cause", "message")
 
 
@@ -48,15 +49,23 @@ def bounds_of(table, case):
     return {**table["bounds"], **case.get("bounds", {})}
 
 
-def keys_of(method):
-    """Shape function, scheme, update order."""
-    return (method.split() + ["musl"])[:3]
+def numerics_of(method):
+    """What the scene has under numerics, by key."""
+    if method == TOTAL:
+        return {"formulation": "total_lagrangian"}
+    keys = "formulation", "shape_function", "scheme", "update_order"
+    return dict(zip(keys, ["updated_lagrangian", *method.split(), "musl"]))
+
+
+def name_of(numerics):
+    """A method with all its keys, as numerics_of and rows of the results have them."""
+    if numerics["formulation"] == "total_lagrangian":
+        return TOTAL
+    return " ".join(numerics[key] for key in ("shape_function", "scheme", "update_order"))
 
 
 def settings_of(table, case, method):
-    shape, scheme, order = keys_of(method)
-    settings = ["numerics.formulation=updated_lagrangian", f"numerics.shape_function={shape}",
-                f"numerics.scheme={scheme}", f"numerics.update_order={order}",
+    settings = [*(f"numerics.{key}={value}" for key, value in numerics_of(method).items()),
                 "output.fields=[volume_ratio, velocity]", *case.get("settings", [])]
     if "share_of_limit" in case:
         cfl = min(3, case["share_of_limit"] * table["limits"][method])  # a scene takes none above 3
@@ -83,7 +92,7 @@ def run(mpm_par, table, case, method, folder):
     """A row of the results."""
     done = scene_run.ended_or_stopped(mpm_par, HERE / case["scene"], folder,
                                       settings_of(table, case, method))
-    row = dict(zip(("shape_function", "scheme", "update_order"), keys_of(method)))
+    row = numerics_of(method)
     row |= {"case": case["name"], "scene": case["scene"], "beyond": "", "message": ""}
     row["cfl"] = float(f"{Scene(folder).cfl:.3g}")
     if done.returncode == 3:
@@ -184,7 +193,7 @@ def main():
 
 
 def same_run(row):
-    return tuple(row[key] for key in ("case", "shape_function", "scheme", "update_order"))
+    return row["case"], name_of(row)
 
 
 def write_csv(file, rows):

@@ -19,7 +19,7 @@ import json
 import tempfile
 from pathlib import Path
 
-from atlas import HERE, TABLE, keys_of
+from atlas import HERE, TABLE, numerics_of
 from figures import Scene, energies, growth, history
 import scene_run
 
@@ -45,11 +45,10 @@ SCENES = {  # file, settings, what must hold
 
 def run(mpm_par, scene, settings, method, cfl, folder):
     """Whether the run ended."""
-    settings = settings + [f"numerics.{key}={value}" for key, value in
-                zip(("shape_function", "scheme", "update_order"), keys_of(method))]
+    settings = settings + [f"numerics.{key}={value}" for key, value in numerics_of(method).items()]
     settings += ["output.snapshots=0"] + ([] if cfl is None else [f"numerics.cfl={cfl:.6g}"])
-    return scene_run.ended_or_stopped(mpm_par, HERE / "scenes" / scene, folder,
-                                      settings).returncode == 0
+    return scene_run.ended_or_stopped(mpm_par, HERE / "scenes" / scene, folder, settings,
+                                      "--overwrite").returncode == 0
 
 
 def largest(bears, start):

@@ -5,7 +5,7 @@
 import csv
 import json
 
-from atlas import FIGURES, HERE, PROJECT, RESULTS, TABLE, keys_of
+from atlas import FIGURES, HERE, PROJECT, RESULTS, TABLE, TOTAL, name_of, numerics_of
 from critical_cfl import FILE as CRITICAL
 from written_page import table as markdown, write_or_check
 
@@ -51,12 +51,15 @@ def cell(row, letters):
 
 def results():
     with open(RESULTS, newline="") as file:
-        return {(row["case"], f"{row['shape_function']} {row['scheme']} {row['update_order']}"): row
-                for row in csv.DictReader(file)}
+        return {(row["case"], name_of(row)): row for row in csv.DictReader(file)}
+
+
+def title_of(method):
+    return "total Lagrangian" if method == TOTAL else method.replace(" ", ", ")
 
 
 def table_of(cases, methods, rows, letters):
-    heads = [method.removesuffix(" musl").replace(" ", ", ", 1) for method in methods]
+    heads = [title_of(method.removesuffix(" musl")) for method in methods]
     lines = [[f"{case['what']} (`{case['name']}`)",
               *(cell(rows.get((case["name"], method)), letters) for method in methods)]
              for case in cases]
@@ -94,7 +97,7 @@ def critical_text(table):
     lines = []
     for method, found in json.loads(CRITICAL.read_text()).items():
         measured = [found[name] for name in ("bar", "corner", "corner_nu", "drift", "crush")]
-        lines.append([", ".join(keys_of(method)),
+        lines.append([title_of(name_of(numerics_of(method))),
                       *("none" if value == 0 else "3 or more" if value >= 3 else f"{value:g}"
                         for value in measured),
                       f"{table['limits'][method]:g}", f"{found['default']:.2g}"])
@@ -106,8 +109,8 @@ def main():
     found = {row["cause"] for row in rows.values()}
     used = [cause for cause in table["causes"] if cause in found]
     letters = {cause: chr(ord("a") + k) for k, cause in enumerate(used)}
-    plain = [" ".join(keys_of(method)) for method in table["methods"]["all"]]
-    ordered = [" ".join(keys_of(method)) for method in table["methods"]["orders"]]
+    plain = [name_of(numerics_of(method)) for method in table["methods"]["all"]]
+    ordered = [name_of(numerics_of(method)) for method in table["methods"]["orders"]]
     parts = [INTRODUCTION.replace("FIGURES", ", ".join(f"`{name}`" for name in FIGURES)),
              bounds_text(table)]
     for group, title in GROUPS.items():

@@ -12,9 +12,9 @@ def command(mpm_par, scene, folder, settings=(), *more):
     return [str(mpm_par), str(scene), "--output", str(folder), *more, *set_options(settings)]
 
 
-def ended_or_stopped(mpm_par, scene, folder, settings=()):
+def ended_or_stopped(mpm_par, scene, folder, settings=(), *more):
     """A run that has come to its end (status 0) or that the program has stopped (3)."""
-    words = command(mpm_par, scene, folder, settings)
+    words = command(mpm_par, scene, folder, settings, *more)
     done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode not in (0, 3):
         raise RuntimeError(f"{' '.join(words)}\n{done.stdout}{done.stderr}")
