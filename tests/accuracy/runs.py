@@ -16,6 +16,8 @@ RESULTS = PROJECT / "docs" / "accuracy"
 sys.path += [str(PROJECT / "src" / "study"), str(PROJECT / "src" / "python"),
              str(PROJECT / "tests" / "convergence"), str(PROJECT / "tests" / "support")]
 import scene_run  # noqa: E402
+import store  # noqa: E402
+from yaml_tree import read_value, read_yaml  # noqa: E402
 
 UPDATED = "numerics.formulation=updated_lagrangian"
 ROUNDS, SHORT = 3, 1.0  # runs of less than SHORT seconds are timed ROUNDS times
@@ -48,8 +50,11 @@ def start_up(mpm_par, scene):
 
 
 def place_of(scene, settings, folder):
-    """Where the results of this run are kept."""
-    name = hashlib.sha256("\n".join([Path(scene).read_text(), *settings]).encode()).hexdigest()[:16]
+    """Where the results of this run are kept: the name stands for the scene, the pictures that it or a
+    setting names, and the settings."""
+    trees = [read_yaml(scene), *(read_value(setting.partition("=")[2], "--set") for setting in settings)]
+    text = "\n".join([store.scene_print(scene, trees), *settings])
+    name = hashlib.sha256(text.encode()).hexdigest()[:16]
     return Path(folder) / f"{Path(scene).stem}_{name}"
 
 

@@ -26,6 +26,7 @@ import numpy
 
 import runs  # noqa: F401  (which makes the project's modules known)
 import curve_landmarks
+import load_paths
 from words import filled_in, finished
 from written_page import table, write_or_check
 
@@ -38,9 +39,10 @@ TEXT = Path(__file__).with_name("wood_study_page.md")
 KEPT = ("study.csv", "study.json")
 MPM_CURVE = runs.PROJECT / "build" / "mpm_curve"
 AGAIN = FOLDER / "again.json"
-LADDERS = runs.PROJECT / "docs" / "formulations" / "ladders.csv"
-IN_LADDERS = "loblolly, tangential", "poplar, tangential", "poplar, radial", "loblolly, radial"
+FORMULATIONS = runs.PROJECT / "docs" / "formulations" / "ladders.csv"
+IN_FORMULATIONS = "loblolly, tangential", "poplar, tangential", "poplar, radial", "loblolly, radial"
 RISING_LINES = ("4", "8"), ("8", "16")  # times the plateau's last stress, beside the 2 and 4 of runs
+PROPERTIES = "modulus", "buckling_stress", "buckling_strain", "densification_stress", "densification_strain"
 SAMPLED_STRAINS = 0.05, 0.10, 0.20, 0.26, 0.30, 0.35, 0.40, 0.50
 AGREEING = 0.2  # of the paper's figure
 YIELDING = 0.10, 0.20, 0.30, 0.40  # strains
@@ -57,7 +59,9 @@ TABLE_1 = {  # wood and direction: study and run
     **{f"loblolly, tangential, {walls}": ("wood_yield", f"{walls}, tangential") for walls in OTHER_WALLS},
     "poplar, radial": ("wood_poplar", "radial"), "poplar, tangential": ("wood_poplar", "tangential"),
     "ponderosa, tangential": ("wood_ponderosa", "tangential")}
-LADDERS_OF_WOODS = "wood_error_bars", "wood_fine_cells"
+# Sizes of cells: about the paper's, and finer ones. A study names a run by its wood or as TABLE_1 does.
+LADDERS = "wood_error_bars", "wood_yield_error_bars"
+FINER_LADDERS = "wood_fine_cells", "wood_yield_fine_cells", "wood_fine_densification"
 FRAMES = {  # strips: name of the picture, run, colour, strains
     "wood_yield": (("radial", "500 MPa, radial", PLASTIC_WORK, (0.048, 0.168, 0.288, 0.457, 0.595)),
                    ("tangential", "500 MPa, tangential", PLASTIC_WORK, (0.146, 0.297, 0.446, 0.595))),
@@ -144,14 +148,13 @@ def border_rows(study, runs_of_it):
 
 def by_id(snapshot):
     """x and plastic work of all particles, in the same order at all times."""
-    order = numpy.argsort(snapshot["id"])
-    return snapshot["position"][order, 0], snapshot["plastic_work"][order]
+    return load_paths.in_order(snapshot, "position")[:, 0], load_paths.in_order(snapshot, "plastic_work")
 
 
 # Of runs, which are not kept.
 TABLES = {"foam": theory.honeycomb_rows, "layers": theory.layer_rows, "windows": studies.window_rows,
           "reading": studies.reading_rows, "rising_lines": rising_line_rows, "landmarks": landmark_rows,
-          "border": border_rows}
+          "border": border_rows, "load_paths": load_paths.load_path_rows}
 
 
 def take(results):
@@ -266,12 +269,12 @@ def again():
 
 
 def moduli_of_ladders():
-    with open(LADDERS, newline="", encoding="utf-8") as file:
+    with open(FORMULATIONS, newline="", encoding="utf-8") as file:
         found = {(row["geometry"], row["method"], row["cells"]): row["modulus"] for row in csv.DictReader(file)}
     methods = [(method, cells) for method in ("updated", "total") for cells in ("75", "150", "300")]
     known = {run["label"]: run["known_modulus"] for run in read_study(FOLDER / "wood_rays").record["runs"]}
     lines = []
-    for wood in IN_LADDERS:
+    for wood in IN_FORMULATIONS:
         moduli = [found[wood.replace(", ", "_"), *of] for of in methods]
         lines.append([wood, *(f"{float(modulus) / 1e9:.3g}" for modulus in [*moduli, known[wood]])])
     return table(["modulus, GPa", *(f"{method}, {cells} cells" for method, cells in methods), "paper"], lines)
@@ -308,27 +311,29 @@ class Property(typing.NamedTuple):
         return "-" if value is None else self.shown(float(f"{value:.2g}"))
 
 
-def finest_of(study, label):
-    """The finest run of this label, or nothing."""
-    found = [run for run in study.record["runs"] if run["label"] == label and study_facts.is_finest(study, run)]
-    return one_of(found, label) if found else {}
+def finest_of(ladders, labels, measure):
+    """Value and numerical error of the finest run of one of these labels in the first of these studies that
+    has them; None where there is none."""
+    value, bar = (f"{what}_{measure['name']}" for what in ("value", "bar"))
+    found = [run for study in ladders for run in study.record["runs"]
+             if run["label"] in labels and run.get(value) is not None and study_facts.is_finest(study, run)]
+    return (found[0][value], found[0].get(bar)) if found else (None, None)
 
 
 def table_1():
-    ladders, finer, others, drawn = (read_study(FOLDER / name) for name in (
-        *LADDERS_OF_WOODS, "wood_yield_error_bars", "wood_specimens"))
+    ladders, finer = ([read_study(FOLDER / name) for name in names if (FOLDER / name).exists()] for names in (LADDERS, FINER_LADDERS))
+    drawn = read_study(FOLDER / "wood_specimens")
     for wood, (name, label) in TABLE_1.items():
         study = read_study(FOLDER / name)
         run = one_of([run for run in study.record["runs"] if study_facts.name_of(study, run) == label], wood)
-        finest, finest_of_finer = finest_of(ladders, wood) or finest_of(others, label), finest_of(finer, wood)
         pieces = [piece for piece in drawn.record["runs"] if wood == f"loblolly, {piece['label'].split(', ')[0]}"]
         for measure in study_facts.numbers(study):
-            value, bar, known = (f"{what}_{measure['name']}" for what in ("value", "bar", "known"))
+            value, known = (f"{what}_{measure['name']}" for what in ("value", "known"))
             if run.get(known):
                 scatter = [piece[value] for piece in pieces]
-                yield Property(wood, measure, run[value], finest.get(bar), finest_of_finer.get(value),
-                               finest_of_finer.get(bar), statistics.stdev(scatter) if scatter and None not in scatter else None,
-                               run[known])
+                _, error = finest_of(ladders, (wood, label), measure)
+                yield Property(wood, measure, run[value], error, *finest_of(finer, (wood, label), measure),
+                               statistics.stdev(scatter) if scatter and None not in scatter else None, run[known])
 
 
 def how_well_known():
@@ -340,6 +345,37 @@ def how_well_known():
                       one.shown(one.known), study_facts.difference(one.best()[0], one.known) or "-", one.verdict()])
     return table(["wood", "property", "found", "numerical error", "on finer cells", "numerical error of that",
                   "from piece to piece", "paper", "difference", "verdict"], lines)
+
+
+def pieces_beside_paper():
+    """Mean and standard deviation of Table 1's properties over drawn pieces by the paper's method, the paper's,
+    and how far the mean is from it in percent and in such deviations."""
+    study = read_study(FOLDER / "wood_paper_method_specimens")
+    paper = {one.wood: {} for one in table_1()}
+    for one in table_1():
+        paper[one.wood][one.measure["name"]] = one.known
+    pieces = {}
+    for run in study.record["runs"]:
+        pieces.setdefault(run["label"].rpartition(", ")[0], []).append(run)
+    measures = [measure for measure in study_facts.numbers(study) if measure["name"] in PROPERTIES]
+    lines = []
+    for label, runs_of_it in pieces.items():
+        cells = []
+        for measure in measures:
+            known = paper[max((wood for wood in paper if label.startswith(wood)), key=len)].get(measure["name"])
+            values = [run[f"value_{measure['name']}"] for run in runs_of_it]
+            values = [value for value in values if value is not None]
+            if known is None or len(values) < 2:
+                cells.append("-")
+                continue
+            mean, deviation = statistics.mean(values), statistics.stdev(values)
+            fewer = f", of {len(values)}" if len(values) < len(runs_of_it) else ""
+            cells.append(f"{study_facts.shown(measure, mean)} ± "
+                         f"{study_facts.shown(measure, float(f'{deviation:.2g}'))}{fewer} / "
+                         f"{study_facts.shown(measure, known)} ({study_facts.difference(mean, known)}, "
+                         f"{abs(known - mean) / deviation:.1f})")
+        lines.append([label, *cells])
+    return table(["wood", *map(study_facts.title, measures)], lines)
 
 
 def last_levels(name):
@@ -371,8 +407,8 @@ def took():
 
 def values():
     """What may stand in braces in wood_study_page.md."""
-    found = {"took": took(), "moduli_of_ladders": moduli_of_ladders(), "how_well_known": how_well_known(),
-             **{f"{name}_last_levels": last_levels(name) for name in LADDERS_OF_WOODS}} | again()
+    found = {"took": took(), "moduli_of_ladders": moduli_of_ladders(), "how_well_known": how_well_known(), "pieces_beside_paper": pieces_beside_paper(),
+             **{f"{name}_last_levels": last_levels(name) for name in (*LADDERS, *FINER_LADDERS) if (FOLDER / name).exists()}} | again()
     for folder in study_folders(FOLDER):
         study = read_study(folder)
         for name in TABLES:
