@@ -13,6 +13,7 @@
 import csv
 import io
 import json
+import math
 import re
 import shutil
 import statistics
@@ -286,7 +287,7 @@ class Property(typing.NamedTuple):
     measure: dict
     found: float | None
     error: float | None
-    finer: float | None  # on finer cells than the paper's
+    finer: float | None  # what finer cells than the paper's make of it
     finer_error: float | None
     scatter: float | None
     known: float
@@ -311,17 +312,23 @@ class Property(typing.NamedTuple):
         return "-" if value is None else self.shown(float(f"{value:.2g}"))
 
 
-def finest_of(ladders, labels, measure):
-    """Value and numerical error of the finest run of one of these labels in the first of these studies that
-    has them; None where there is none."""
+def ladder_of(ladders, labels, run, measure):
+    """(figure with about as many particles as the run has, finest figure, numerical error) of the sizes of cells
+    of one of these labels in the study that has them; nothing where one has no such figure."""
     value, bar = (f"{what}_{measure['name']}" for what in ("value", "bar"))
-    found = [run for study in ladders for run in study.record["runs"]
-             if run["label"] in labels and run.get(value) is not None and study_facts.is_finest(study, run)]
-    return (found[0][value], found[0].get(bar)) if found else (None, None)
+    found = sorted((one for study in ladders for one in study.record["runs"]
+                    if one["label"] in labels and value in one), key=lambda one: one["particles"])
+    if not found:
+        return None
+    as_fine = min(found, key=lambda one: abs(math.log(one["particles"] / run["particles"])))
+    if None in (as_fine[value], found[-1][value]):
+        return None
+    return as_fine[value], found[-1][value], found[-1].get(bar)
 
 
 def table_1():
-    ladders, finer = ([read_study(FOLDER / name) for name in names if (FOLDER / name).exists()] for names in (LADDERS, FINER_LADDERS))
+    ladders, finer_ladders = ([read_study(FOLDER / name) for name in names if (FOLDER / name).exists()]
+                              for names in (LADDERS, FINER_LADDERS))
     drawn = read_study(FOLDER / "wood_specimens")
     for wood, (name, label) in TABLE_1.items():
         study = read_study(FOLDER / name)
@@ -331,8 +338,11 @@ def table_1():
             value, known = (f"{what}_{measure['name']}" for what in ("value", "known"))
             if run.get(known):
                 scatter = [piece[value] for piece in pieces]
-                _, error = finest_of(ladders, (wood, label), measure)
-                yield Property(wood, measure, run[value], error, *finest_of(finer, (wood, label), measure),
+                ladder, finer = (ladder_of(of, (wood, label), run, measure) for of in (ladders, finer_ladders))
+                # Finer cells were crushed faster: what they change is carried over, not what they have.
+                scale = run[value] / finer[0] if finer and run[value] is not None else None
+                yield Property(wood, measure, run[value], ladder and ladder[2], scale and scale * finer[1],
+                               scale and finer[2] and scale * finer[2],
                                statistics.stdev(scatter) if scatter and None not in scatter else None, run[known])
 
 
