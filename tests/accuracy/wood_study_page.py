@@ -327,8 +327,7 @@ def ladder_of(ladders, labels, run, measure):
 
 
 def table_1():
-    ladders, finer_ladders = ([read_study(FOLDER / name) for name in names if (FOLDER / name).exists()]
-                              for names in (LADDERS, FINER_LADDERS))
+    ladders, finer_ladders = ([read_study(FOLDER / name) for name in names] for names in (LADDERS, FINER_LADDERS))
     drawn = read_study(FOLDER / "wood_specimens")
     for wood, (name, label) in TABLE_1.items():
         study = read_study(FOLDER / name)
@@ -418,7 +417,7 @@ def took():
 def values():
     """What may stand in braces in wood_study_page.md."""
     found = {"took": took(), "moduli_of_ladders": moduli_of_ladders(), "how_well_known": how_well_known(), "pieces_beside_paper": pieces_beside_paper(),
-             **{f"{name}_last_levels": last_levels(name) for name in (*LADDERS, *FINER_LADDERS) if (FOLDER / name).exists()}} | again()
+             **{f"{name}_last_levels": last_levels(name) for name in (*LADDERS, *FINER_LADDERS)}} | again()
     for folder in study_folders(FOLDER):
         study = read_study(folder)
         for name in TABLES:
