@@ -11,6 +11,7 @@
     wood_study_page.py --check    only says whether the page is the one that would be written
 """
 import csv
+import functools
 import io
 import json
 import math
@@ -309,7 +310,7 @@ class Property(typing.NamedTuple):
         return "-" if value is None else study_facts.shown(self.measure, value)
 
     def shown_error(self, value):
-        return "-" if value is None else self.shown(float(f"{value:.2g}"))
+        return "-" if value is None else study_facts.two_digits(self.measure, value)
 
 
 def ladder_of(ladders, labels, run, measure):
@@ -326,7 +327,19 @@ def ladder_of(ladders, labels, run, measure):
     return as_fine[value], found[-1][value], found[-1].get(bar)
 
 
+def carried(value, ladder):
+    """What finer cells make of a value that was found otherwise than a ladder's, as at another speed, and the
+    numerical error of that: the ladder's change counts, not its figures."""
+    if value is None or ladder is None:
+        return None, None
+    as_fine, finest, error = ladder
+    return value * finest / as_fine, error and value * error / as_fine
+
+
+@functools.cache
 def table_1():
+    """The properties, in the order of TABLE_1."""
+    found = []
     ladders, finer_ladders = ([read_study(FOLDER / name) for name in names] for names in (LADDERS, FINER_LADDERS))
     drawn = read_study(FOLDER / "wood_specimens")
     for wood, (name, label) in TABLE_1.items():
@@ -338,11 +351,10 @@ def table_1():
             if run.get(known):
                 scatter = [piece[value] for piece in pieces]
                 ladder, finer = (ladder_of(of, (wood, label), run, measure) for of in (ladders, finer_ladders))
-                # Finer cells were crushed faster: what they change is carried over, not what they have.
-                scale = run[value] / finer[0] if finer and run[value] is not None else None
-                yield Property(wood, measure, run[value], ladder and ladder[2], scale and scale * finer[1],
-                               scale and finer[2] and scale * finer[2],
-                               statistics.stdev(scatter) if scatter and None not in scatter else None, run[known])
+                found.append(Property(
+                    wood, measure, run[value], ladder and ladder[2], *carried(run[value], finer),
+                    statistics.stdev(scatter) if scatter and None not in scatter else None, run[known]))
+    return found
 
 
 def how_well_known():
@@ -360,27 +372,24 @@ def pieces_beside_paper():
     """Mean and standard deviation of Table 1's properties over drawn pieces by the paper's method, the paper's,
     and how far the mean is from it in percent and in such deviations."""
     study = read_study(FOLDER / "wood_paper_method_specimens")
-    paper = {one.wood: {} for one in table_1()}
-    for one in table_1():
-        paper[one.wood][one.measure["name"]] = one.known
-    pieces = {}
-    for run in study.record["runs"]:
-        pieces.setdefault(run["label"].rpartition(", ")[0], []).append(run)
+    paper = {(one.wood, one.measure["name"]): one.known for one in table_1()}
     measures = [measure for measure in study_facts.numbers(study) if measure["name"] in PROPERTIES]
     lines = []
-    for label, runs_of_it in pieces.items():
+    for pieces in study_facts.drawn_specimens(study):
+        label = pieces[0]["label"].rpartition(", ")[0]  # without the seed
+        wood = max((wood for wood in TABLE_1 if label.startswith(wood)), key=len)
         cells = []
         for measure in measures:
-            known = paper[max((wood for wood in paper if label.startswith(wood)), key=len)].get(measure["name"])
-            values = [run[f"value_{measure['name']}"] for run in runs_of_it]
+            known = paper.get((wood, measure["name"]))
+            values = [run[f"value_{measure['name']}"] for run in pieces]
             values = [value for value in values if value is not None]
             if known is None or len(values) < 2:
                 cells.append("-")
                 continue
             mean, deviation = statistics.mean(values), statistics.stdev(values)
-            fewer = f", of {len(values)}" if len(values) < len(runs_of_it) else ""
+            fewer = f", of {len(values)}" if len(values) < len(pieces) else ""
             cells.append(f"{study_facts.shown(measure, mean)} ± "
-                         f"{study_facts.shown(measure, float(f'{deviation:.2g}'))}{fewer} / "
+                         f"{study_facts.two_digits(measure, deviation)}{fewer} / "
                          f"{study_facts.shown(measure, known)} ({study_facts.difference(mean, known)}, "
                          f"{abs(known - mean) / deviation:.1f})")
         lines.append([label, *cells])
@@ -416,7 +425,8 @@ def took():
 
 def values():
     """What may stand in braces in wood_study_page.md."""
-    found = {"took": took(), "moduli_of_ladders": moduli_of_ladders(), "how_well_known": how_well_known(), "pieces_beside_paper": pieces_beside_paper(),
+    found = {"took": took(), "moduli_of_ladders": moduli_of_ladders(), "how_well_known": how_well_known(),
+             "pieces_beside_paper": pieces_beside_paper(),
              **{f"{name}_last_levels": last_levels(name) for name in (*LADDERS, *FINER_LADDERS)}} | again()
     for folder in study_folders(FOLDER):
         study = read_study(folder)

@@ -1,4 +1,5 @@
-"""Runs stiff and extreme scenes with both formulations, every shape function and scheme, and says which hold.
+"""Runs stiff and extreme scenes with both formulations, every shape function and scheme, and says
+which hold.
 
     atlas.py MPM_PAR [--case NAME ...] [--method NAME ...] [--quick] [--long] [--csv FILE] [--write]
 
@@ -36,8 +37,8 @@ SLACK = 0.25
 FIGURES = ("gain", "loss", "ratio_low", "ratio_high", "through", "gap", "pieces", "momentum",
            "turned", "growth", "stiffness")
 TOTAL = "total lagrangian"  # the method that has neither shape functions nor schemes
-COLUMNS = ("case", "scene", "formulation", "shape_function", "scheme", "update_order", "cfl", "verdict", "beyond",
-           *FIGURES, "steps", "failed_at", "cause", "message")
+COLUMNS = ("case", "scene", "formulation", "shape_function", "scheme", "update_order", "cfl",
+           "verdict", "beyond", *FIGURES, "steps", "failed_at", "cause", "message")
 
 
 def methods_of(table, case):
@@ -53,7 +54,7 @@ def numerics_of(method):
     """What the scene has under numerics, by key."""
     if method == TOTAL:
         return {"formulation": "total_lagrangian"}
-    keys = "formulation", "shape_function", "scheme", "update_order"
+    keys = "formulation", "shape_function", "scheme", "update_order"  # the last: musl if not named
     return dict(zip(keys, ["updated_lagrangian", *method.split(), "musl"]))
 
 

@@ -19,7 +19,7 @@ def four_digits(number):
     return f"{number:.4g}" if abs(number) < 1e4 else f"{number:,.0f}"
 
 
-def _two_digits(measure, spread):
+def two_digits(measure, spread):
     """An error or a deviation as a text without its unit."""
     return four_digits(float(f"{spread * _unit(measure)[1]:.2g}"))
 
@@ -63,7 +63,7 @@ def _figure(measure, run):
     if value is None:
         return "-"
     words = shown(measure, value)
-    return words if bar is None else f"{words} ± {_two_digits(measure, bar)}"
+    return words if bar is None else f"{words} ± {two_digits(measure, bar)}"
 
 
 def figures(study):
@@ -163,20 +163,23 @@ def shifts(study):
         rows
 
 
-def scatter(study):
-    """(titles, rows): mean, standard deviation and range of each figure over drawn specimens of one
-    kind (specimen.seed), of the runs with otherwise the same settings."""
+def drawn_specimens(study):
+    """Lists of two and more runs that differ by nothing but the specimen drawn (specimen.seed)."""
     key = "specimen.seed"
-    measures = numbers(study)
     groups = {}
     for run in study.record["runs"]:
         if run["state"] == OK and run["settings"].get(key):
             rest = tuple((name, value) for name, value in run["settings"].items() if name != key)
             groups.setdefault(rest, []).append(run)
+    return [runs for runs in groups.values() if len(runs) > 1]
+
+
+def scatter(study):
+    """(titles, rows): mean, standard deviation and range of each figure over drawn specimens of one
+    kind."""
+    measures = numbers(study)
     rows = []
-    for runs in groups.values():
-        if len(runs) < 2:
-            continue
+    for runs in drawn_specimens(study):
         words = [name_of(study, run).split(", ") for run in runs]
         shared = [word for word in words[0] if all(word in others for others in words)]
         rows.append([", ".join(shared) or "all", str(len(runs)),
@@ -191,7 +194,7 @@ def _spread(measure, runs):
         return "-"
     words = shown(measure, numpy.mean(values))
     if len(values) > 1:
-        words += (f" ± {_two_digits(measure, numpy.std(values, ddof=1))} "
+        words += (f" ± {two_digits(measure, numpy.std(values, ddof=1))} "
                   f"({shown(measure, min(values))} to {shown(measure, max(values))})")
     return words if len(values) == len(runs) else f"{words}, of {len(values)}"
 
