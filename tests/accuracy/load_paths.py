@@ -9,12 +9,13 @@ from PIL import Image, ImageFilter
 import runs  # which makes the project's modules known
 
 from mpm_par.report import study_facts
+from mpm_par.windows import windows_of_scene
 
 DRAW_WOOD = runs.PROJECT / "build" / "draw_wood"
 WOODS = runs.PROJECT / "inputs" / "wood"
 SOLID_RAYS = {"poplar.bmp": "poplar_filled_rays.anatomy.yaml"}  # the same wood but for its rays
 WALL_PIXELS = 2  # of a ray cell's wall, 2.2 um, on pixels of 1.6 um
-LONG = 50e-6  # m, three fibres
+LONG = {"poplar.bmp": 50e-6, "loblolly.bmp": 100e-6}  # m, three fibres or cells
 
 
 def rays(picture, threshold):
@@ -35,40 +36,50 @@ def in_order(snapshot, field):
     return snapshot[field][numpy.argsort(snapshot["id"])] if "id" in snapshot else snapshot[field]
 
 
-def long_paths(place, load):
-    """Share of the load that is borne in unbroken rows of more than LONG along the load, each location of which
-    bears more than the mean; place (N, 2) across and along the load, m."""
-    spacing = numpy.diff(numpy.unique(place[:, 1].round(9))).min()
-    across, along = (place / spacing).astype(int).T
+def long_paths(place, load, longest):
+    """Share of the load that is borne in unbroken rows longer than `longest` along the load, each location of
+    which bears more than the mean; place (N, 2) across and along the load, m."""
+    spacings = [numpy.diff(numpy.unique(coordinates.round(9))).min() for coordinates in place.T]
+    across, along = numpy.rint((place - place.min(axis=0)) / spacings).astype(int).T
     lines = numpy.zeros((across.max() + 1, along.max() + 3))  # with an end that bears nothing on both sides
     lines[across, along + 1] = load
     bears = (lines > load.mean()).astype(int)
     total = 0.0
     for line, first_and_behind in zip(lines, numpy.diff(bears)):
         for first, behind in zip(numpy.flatnonzero(first_and_behind == 1), numpy.flatnonzero(first_and_behind == -1)):
-            if (behind - first) * spacing > LONG:
+            if (behind - first) * spacings[1] > longest:
                 total += line[first + 1:behind + 1].sum()
     return total / load.sum()
 
 
 def load_path_rows(study, runs_of_it):
     """(titles, rows): at each snapshot's strain how much of the load, the sum of the axial stress over
-    particles, is borne by the rays, and in long paths. Paths and rays are those of the undeformed specimen."""
+    particles, is borne by the rays, where they are known, and in long paths; of windows that the scene names how
+    much of their load is. Paths, rays and windows are those of the undeformed specimen."""
     rows = []
     for entry, run in runs_of_it:
         picture = Path(run.scene.get("specimen", {}).get("micrograph", "")).name
-        if picture not in SOLID_RAYS or not run.snapshots or "stress" not in run.snapshots[0]:
+        if picture not in LONG or not run.snapshots or "stress" not in run.snapshots[0]:
             continue
-        first = in_order(run.snapshots[0], "position")[:, :2]
-        mask = rays(picture, run.summary["threshold"])
-        right, up = (first / run.summary["size"] * mask.shape[::-1]).astype(int).T
-        ray = mask[mask.shape[0] - 1 - up, right]
-        shares = {"rays": [], f"paths of more than {1e6 * LONG:.0f} um": []}
-        for snapshot in run.snapshots[1:]:
-            load = -in_order(snapshot, "stress")[:, run.axis]
-            place = first[:, [1 - run.axis, run.axis]]
-            for found, part in zip(shares.values(), (load[ray].sum() / load.sum(), long_paths(place, load))):
+        first = in_order(run.snapshots[0], "position")
+        parts = {}  # which particles, and whether those in long paths among them count only
+        if picture in SOLID_RAYS:
+            mask = rays(picture, run.summary["threshold"])
+            right, up = (first[:, :2] / run.summary["size"] * mask.shape[::-1]).astype(int).T
+            parts["rays"] = mask[mask.shape[0] - 1 - up, right], False
+        paths = f"paths of more than {1e6 * LONG[picture]:.0f} um"
+        windows = windows_of_scene(run)
+        parts |= {f"{window.name}, {paths}": (window.holds(first), True) for window in windows}
+        if not windows:
+            parts[paths] = numpy.ones(len(first), bool), True
+        for what, (inside, in_paths) in parts.items():
+            found = []
+            for snapshot in run.snapshots[1:]:
+                load = -in_order(snapshot, "stress")[:, run.axis]
+                place = first[:, [1 - run.axis, run.axis]]
+                part = (long_paths(place[inside], load[inside], LONG[picture]) if in_paths
+                        else load[inside].sum() / load.sum())
                 found.append(f"{100 * part:.3g} at {100 * snapshot.strain:.3g} %")
-        for what, wall in zip(shares, (f"{100 * ray.mean():.3g}", "-")):
-            rows.append([study_facts.name_of(study, entry), what, wall, ", ".join(shares[what])])
+            wall = "-" if inside.all() else f"{100 * inside.mean():.3g}"
+            rows.append([study_facts.name_of(study, entry), what, wall, ", ".join(found)])
     return ["run", "part", "share of the cell wall (%)", "share of the load (%), at strain"], rows

@@ -13,6 +13,7 @@
 import csv
 import functools
 import io
+import itertools
 import json
 import math
 import re
@@ -63,13 +64,15 @@ TABLE_1 = {  # wood and direction: study and run
     "ponderosa, tangential": ("wood_ponderosa", "tangential")}
 # Sizes of cells: about the paper's, and finer ones. A study names a run by its wood or as TABLE_1 does.
 LADDERS = "wood_error_bars", "wood_yield_error_bars"
-FINER_LADDERS = "wood_fine_cells", "wood_yield_fine_cells", "wood_fine_densification"
+FINER_LADDERS = "wood_fine_cells", "wood_yield_fine_cells", "wood_fine_densification", "wood_fine_ponderosa"
+PIECES = "wood_paper_method_specimens", "wood_paper_method_pictures"
 FRAMES = {  # strips: name of the picture, run, colour, strains
     "wood_yield": (("radial", "500 MPa, radial", PLASTIC_WORK, (0.048, 0.168, 0.288, 0.457, 0.595)),
                    ("tangential", "500 MPa, tangential", PLASTIC_WORK, (0.146, 0.297, 0.446, 0.595))),
     "wood_poplar": tuple((way, way, colour, POPLAR) for colour in (PLASTIC_WORK, AXIAL_STRESS)
                          for way in ("radial", "tangential")),
     "wood_ponderosa": (("tangential", "tangential", PLASTIC_WORK, (0, 0.05, 0.186, 0.30, 0.45)),),
+    "wood_load_paths": tuple((way, way, AXIAL_STRESS, (0.01,)) for way in ("radial", "tangential")),
     "own_wood": tuple((way, f"as it is, {way}, spacing 5.35 um", PLASTIC_WORK, POPLAR)
                       for way in ("radial", "tangential"))}
 
@@ -116,7 +119,7 @@ def landmark_rows(study, runs_of_it):
                      "-" if dense is None else f"{100 * dense:.3g}",
                      *(("-", "-") if hump is None else (f"{100 * hump[0]:.2g}", f"{100 * hump[1]:.0f}")),
                      *("-" if numpy.isnan(share) else f"{share:.0f}" for share in 100 * plastic / done),
-                     f"{100 * moving.max():.2g}"])
+                     f"{100 * moving.max():.2g}" if crushed.any() else "-"])
     return ["run", f"highest up to {100 * EARLY:.0f} % (MPa)",
             *(f"at {100 * strain:.0f} % (MPa)" for strain in SAMPLED_STRAINS),
             f"{DENSE_STRESS / 1e9:.0f} GPa at (%)", "hump: slope lost (%)", "hump at (%)",
@@ -204,10 +207,10 @@ def frames(run, colour, strains):
 
 
 def strip(pictures, place):
-    """The pictures side by side, as wide as a page."""
+    """The pictures side by side, as wide as a page at most."""
     from PIL import Image
     images = [Image.open(io.BytesIO(picture)).convert("RGB") for picture in pictures]
-    width = 1600 // len(images)
+    width = min(1600 // len(images), 800)
     images = [image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
               for image in images]
     whole = Image.new("RGB", (width * len(images), max(image.height for image in images)), "white")
@@ -371,11 +374,11 @@ def how_well_known():
 def pieces_beside_paper():
     """Mean and standard deviation of Table 1's properties over drawn pieces by the paper's method, the paper's,
     and how far the mean is from it in percent and in such deviations."""
-    study = read_study(FOLDER / "wood_paper_method_specimens")
+    studies_of_pieces = [read_study(FOLDER / name) for name in PIECES]
     paper = {(one.wood, one.measure["name"]): one.known for one in table_1()}
-    measures = [measure for measure in study_facts.numbers(study) if measure["name"] in PROPERTIES]
+    measures = [measure for measure in study_facts.numbers(studies_of_pieces[0]) if measure["name"] in PROPERTIES]
     lines = []
-    for pieces in study_facts.drawn_specimens(study):
+    for pieces in itertools.chain.from_iterable(map(study_facts.drawn_specimens, studies_of_pieces)):
         label = pieces[0]["label"].rpartition(", ")[0]  # without the seed
         wood = max((wood for wood in TABLE_1 if label.startswith(wood)), key=len)
         cells = []
@@ -455,7 +458,7 @@ class Figures:
     """What a sentence quotes: {STUDY|RUN|FIGURE} is a figure of study.json in the unit of the tables,
     {STUDY.TABLE|RUN|COLUMN} a cell of a kept table, {STUDY.scatter|RUNS|FIGURE} mean and deviation of drawn
     specimens, {STUDY.spread|RUNS|FIGURE} the latter in percent of the former, {verdict|WOOD|FIGURE} the one on
-    a property of Table 1. {A beside B} is their difference in percent of B, which may be `known`; {A over B} is
+    a property of Table 1, {finer|WOOD|FIGURE} what finer cells make of it. {A beside B} is their difference in percent of B, which may be `known`; {A over B} is
     their ratio, {A less B} their difference. Behind a colon stands how many digits to write."""
 
     QUOTED = re.compile(r"\{([a-z_]+(?:\.[a-z_]+)?\|[^{}]+?)(?::(\d))?\}")
@@ -481,9 +484,9 @@ class Figures:
 
     def figure(self, asked):
         study, name, figure, *known = asked.split("|")
-        if study == "verdict":
-            return one_of([one.verdict() for one in table_1()
-                           if (one.wood, one.measure["name"]) == (name, figure)], asked)
+        if study in ("verdict", "finer"):
+            found = one_of([one for one in table_1() if (one.wood, one.measure["name"]) == (name, figure)], asked)
+            return found.verdict() if study == "verdict" else found.shown(found.finer)
         study, _, kept = study.partition(".")
         if kept in ("scatter", "spread"):
             mean, deviation = self.scatter(self.studies[study], name, figure, asked)

@@ -1,0 +1,75 @@
+"""What the page works out of what its studies found, on figures made by hand."""
+import unittest
+from types import SimpleNamespace
+
+import numpy
+
+import load_paths
+import wood_study_page as page
+
+MEASURE = {"name": "modulus"}
+
+
+def ladder_study(*levels):
+    """Of one wood: (particles, value, bar) each."""
+    return SimpleNamespace(record={"runs": [
+        {"label": "oak", "particles": particles, "value_modulus": value, "bar_modulus": bar}
+        for particles, value, bar in levels]})
+
+
+def known(found, error=None, finer=None, finer_error=None, scatter=None, paper=100.0):
+    return page.Property("oak", MEASURE, found, error, finer, finer_error, scatter, paper).verdict()
+
+
+class FinerCells(unittest.TestCase):
+    LADDER = ladder_study((4000, 80.0, None), (1000, 60.0, None), (16000, 90.0, 9.0))
+
+    def test_what_they_change_is_carried_over_from_the_level_that_is_as_fine_as_the_run(self):
+        found = page.ladder_of([self.LADDER], ("oak",), {"particles": 3500}, MEASURE)
+        self.assertEqual(found, (80.0, 90.0, 9.0))
+        value, error = page.carried(160.0, found)
+        self.assertAlmostEqual(value, 180.0)
+        self.assertAlmostEqual(error, 18.0)
+
+    def test_a_finest_run_without_the_figure_says_nothing_of_it(self):
+        study = ladder_study((1000, 60.0, None), (4000, None, None))
+        self.assertIsNone(page.ladder_of([study], ("oak",), {"particles": 1000}, MEASURE))
+        self.assertEqual(page.carried(160.0, None), (None, None))
+
+    def test_another_wood_has_no_part_in_it(self):
+        self.assertIsNone(page.ladder_of([self.LADDER], ("ash",), {"particles": 1000}, MEASURE))
+
+
+class Verdicts(unittest.TestCase):
+    def test_within_a_fifth_of_the_paper_agrees_whatever_the_error(self):
+        self.assertEqual(known(119.0, error=90.0), "agrees")
+
+    def test_beyond_it_differs_or_is_undecided_where_it_is_not_known_better(self):
+        self.assertEqual(known(130.0, error=20.0), "differs")
+        self.assertEqual(known(130.0, error=40.0), "undecided")
+        self.assertEqual(known(130.0, scatter=40.0), "undecided")
+
+    def test_what_finer_cells_make_of_it_counts(self):
+        self.assertEqual(known(130.0, error=40.0, finer=110.0, finer_error=5.0), "agrees")
+        self.assertEqual(known(110.0, error=5.0, finer=130.0, finer_error=5.0), "differs")
+
+    def test_a_curve_without_the_figure_is_not_found(self):
+        self.assertEqual(known(None), "not found")
+
+
+class LoadPaths(unittest.TestCase):
+    """Ten locations of 10 um along the load, three rows across that are 7 um apart."""
+    PLACE = numpy.array([(1e-3 + 7e-6 * row, 1e-5 * along) for row in range(3) for along in range(10)])
+
+    def test_an_unbroken_row_bears_its_share_and_a_broken_one_none(self):
+        load = numpy.array([5.0] * 10 + [5.0] * 4 + [0.0] + [5.0] * 5 + [1.0] * 10)
+        self.assertAlmostEqual(load_paths.long_paths(self.PLACE, load, 6e-5), 50 / load.sum())
+        self.assertAlmostEqual(load_paths.long_paths(self.PLACE, load, 4.5e-5), 75 / load.sum())
+        self.assertAlmostEqual(load_paths.long_paths(self.PLACE, load, 1e-5), 95 / load.sum())
+
+    def test_where_all_bear_the_same_no_path_bears_more(self):
+        self.assertEqual(load_paths.long_paths(self.PLACE, numpy.ones(30), 1e-5), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
