@@ -62,24 +62,20 @@ def load_path_rows(study, runs_of_it):
         if picture not in LONG or not run.snapshots or "stress" not in run.snapshots[0]:
             continue
         first = in_order(run.snapshots[0], "position")
-        parts = {}  # which particles, and whether those in long paths among them count only
+        place = first[:, [1 - run.axis, run.axis]]
+        loads = [(snapshot.strain, -in_order(snapshot, "stress")[:, run.axis]) for snapshot in run.snapshots[1:]]
+        parts = []  # name, which particles, and their share of each load
         if picture in SOLID_RAYS:
             mask = rays(picture, run.summary["threshold"])
             right, up = (first[:, :2] / run.summary["size"] * mask.shape[::-1]).astype(int).T
-            parts["rays"] = mask[mask.shape[0] - 1 - up, right], False
-        paths = f"paths of more than {1e6 * LONG[picture]:.0f} um"
-        windows = windows_of_scene(run)
-        parts |= {f"{window.name}, {paths}": (window.holds(first), True) for window in windows}
-        if not windows:
-            parts[paths] = numpy.ones(len(first), bool), True
-        for what, (inside, in_paths) in parts.items():
-            found = []
-            for snapshot in run.snapshots[1:]:
-                load = -in_order(snapshot, "stress")[:, run.axis]
-                place = first[:, [1 - run.axis, run.axis]]
-                part = (long_paths(place[inside], load[inside], LONG[picture]) if in_paths
-                        else load[inside].sum() / load.sum())
-                found.append(f"{100 * part:.3g} at {100 * snapshot.strain:.3g} %")
+            ray = mask[mask.shape[0] - 1 - up, right]
+            parts.append(("rays", ray, [load[ray].sum() / load.sum() for _, load in loads]))
+        whole = [("", numpy.ones(len(first), bool))]
+        for window, inside in [(f"{one.name}, ", one.holds(first)) for one in windows_of_scene(run)] or whole:
+            parts.append((f"{window}paths of more than {1e6 * LONG[picture]:.0f} um", inside,
+                          [long_paths(place[inside], load[inside], LONG[picture]) for _, load in loads]))
+        for name, inside, shares in parts:
+            found = [f"{100 * share:.3g} at {100 * strain:.3g} %" for share, (strain, _) in zip(shares, loads)]
             wall = "-" if inside.all() else f"{100 * inside.mean():.3g}"
-            rows.append([study_facts.name_of(study, entry), what, wall, ", ".join(found)])
+            rows.append([study_facts.name_of(study, entry), name, wall, ", ".join(found)])
     return ["run", "part", "share of the cell wall (%)", "share of the load (%), at strain"], rows

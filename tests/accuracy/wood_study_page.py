@@ -65,6 +65,7 @@ TABLE_1 = {  # wood and direction: study and run
 # Sizes of cells: about the paper's, and finer ones. A study names a run by its wood or as TABLE_1 does.
 LADDERS = "wood_error_bars", "wood_yield_error_bars"
 FINER_LADDERS = "wood_fine_cells", "wood_yield_fine_cells", "wood_fine_densification", "wood_fine_ponderosa"
+# Of drawn pieces by the paper's method.
 PIECES = "wood_paper_method_specimens", "wood_paper_method_pictures"
 FRAMES = {  # strips: name of the picture, run, colour, strains
     "wood_yield": (("radial", "500 MPa, radial", PLASTIC_WORK, (0.048, 0.168, 0.288, 0.457, 0.595)),
@@ -458,8 +459,9 @@ class Figures:
     """What a sentence quotes: {STUDY|RUN|FIGURE} is a figure of study.json in the unit of the tables,
     {STUDY.TABLE|RUN|COLUMN} a cell of a kept table, {STUDY.scatter|RUNS|FIGURE} mean and deviation of drawn
     specimens, {STUDY.spread|RUNS|FIGURE} the latter in percent of the former, {verdict|WOOD|FIGURE} the one on
-    a property of Table 1, {finer|WOOD|FIGURE} what finer cells make of it. {A beside B} is their difference in percent of B, which may be `known`; {A over B} is
-    their ratio, {A less B} their difference. Behind a colon stands how many digits to write."""
+    a property of Table 1, {finer|WOOD|FIGURE} what finer cells make of it. {A beside B} is their difference in
+    percent of B, which may be `known`; {A over B} is their ratio, {A less B} their difference. Behind a colon
+    stands how many digits to write."""
 
     QUOTED = re.compile(r"\{([a-z_]+(?:\.[a-z_]+)?\|[^{}]+?)(?::(\d))?\}")
     WORDS = " beside ", " over ", " less "
