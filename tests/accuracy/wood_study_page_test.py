@@ -21,6 +21,14 @@ def known(found, error=None, finer=None, finer_error=None, scatter=None, paper=1
     return page.Property("oak", MEASURE, found, error, finer, finer_error, scatter, paper).verdict()
 
 
+class At(dict):
+    """A snapshot's fields, and its strain."""
+
+    def __init__(self, fields, strain):
+        super().__init__(fields)
+        self.strain = strain
+
+
 class FinerCells(unittest.TestCase):
     LADDER = ladder_study((4000, 80.0, None), (1000, 60.0, None), (16000, 90.0, 9.0))
 
@@ -69,6 +77,36 @@ class LoadPaths(unittest.TestCase):
 
     def test_where_all_bear_the_same_no_path_bears_more(self):
         self.assertEqual(load_paths.long_paths(self.PLACE, numpy.ones(30), 1e-5), 0)
+
+    def test_rows_are_of_each_window_at_each_strain_whatever_the_order_of_particles(self):
+        # Pressed along x: of four lines of 20 locations of 10 um two are early-, two latewood.
+        along, across = (part.ravel() for part in numpy.meshgrid(numpy.arange(20), numpy.arange(4)))
+        place = 1e-5 * numpy.column_stack([along + 0.5, across + 0.5, 0 * along])
+        whole, broken = numpy.isin(across, (0, 2)), (across == 3) & (along != 10)
+        loads = [numpy.where(whole, 3.0, 1.0), numpy.where(whole, 3.0, numpy.where(broken, 3.0, 0.0))]
+        shuffled = numpy.random.default_rng(3).permutation(80)
+
+        def snapshot(strain, load, order):
+            stress = numpy.zeros((80, 6))
+            stress[:, 0] = -load
+            return At({"id": order, "position": (1 - strain) * place[order], "stress": stress[order]}, strain)
+
+        run = SimpleNamespace(
+            axis=0, summary={"size": [2e-4, 4e-5]},
+            scene={"specimen": {"micrograph": "wood/loblolly.bmp",
+                                "windows": [{"name": "early", "y": [0, 0.5]}, {"name": "late", "y": [0.5, 1]}]}},
+            snapshots=[snapshot(0.0, numpy.zeros(80), shuffled), snapshot(0.01, loads[0], numpy.arange(80)),
+                       snapshot(0.05, loads[1], shuffled[::-1])])
+        entry = {"label": "radial", "level": None}
+        titles, rows = load_paths.load_path_rows(None, [(entry, run)])
+        # Late at 5 %: 60 of 60 + 57; the broken line bears its part in pieces of 100 and 90 um.
+        self.assertEqual(rows, [["radial", "early, paths of more than 100 um", "50", "75 at 1 %, 100 at 5 %"],
+                                ["radial", "late, paths of more than 100 um", "50", "75 at 1 %, 51.3 at 5 %"]])
+        self.assertEqual(len(titles), len(rows[0]))
+
+    def test_a_run_without_stress_has_none(self):
+        run = SimpleNamespace(scene={"specimen": {"micrograph": "loblolly.bmp"}}, snapshots=[At({}, 0.0)])
+        self.assertEqual(load_paths.load_path_rows(None, [({}, run)])[1], [])
 
 
 if __name__ == "__main__":
