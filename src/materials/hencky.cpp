@@ -230,9 +230,9 @@ class Hencky final : public Law<2> {
         bent_flow_.stress(of_mean * (plane_strain ? e.mean_deviator() : sum),
                           of_difference * (fibres.cosine * xx + fibres.sine * xy),
                           of_difference * (fibres.cosine * xy - fibres.sine * xx), bending);
-    const Lanes before = t.bending;
+    const BentStress before = t;
     const BentReturn flow = bent_flow_(t, at(s, plastic_strain));
-    BentFlow::take(before, t.bending, bending);
+    BentFlow::take(before, t, bending);
     if (!flow.any) return;
     record_flow(s, flow_columns, yield_, flow.plastic_strain);
     const Lanes mean = t.mean / of_mean, along = t.along / of_difference,

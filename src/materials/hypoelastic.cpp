@@ -273,9 +273,9 @@ class Hypoelastic final : public Law<2> {
                  of_shear = std::sqrt(3.0);
     BentStress stress = bent_flow_.stress(of_mean * (0.5 * (t.xx + t.yy) - p),
                                           of_difference * (t.xx - t.yy), of_shear * t.xy, bending);
-    const Lanes before = stress.bending;
+    const BentStress before = stress;
     const BentReturn flow = bent_flow_(stress, at(s, plastic_strain));
-    BentFlow::take(before, stress.bending, bending);
+    BentFlow::take(before, stress, bending);
     if (!flow.any) return;
     record_flow(s, flow_columns, yield_, flow.plastic_strain);
     const Lanes mean = stress.mean / of_mean, half = stress.along / (2 * of_difference);

@@ -45,7 +45,9 @@ RUNS = {  # wood, law or rays, piston: strain and settings
        for size in (100, 2500)},
     **{(wood, "solid rays", way): (0.2, SLOWER, specimen(wood, "_filled_rays"))
        for wood in ("loblolly", "poplar") for way in PISTONS},
-    **{("loblolly", "open rays", way): (0.2, SLOWER, specimen("loblolly", "")) for way in PISTONS},
+    # On 75 cells the walls that bear along the tangent are a location wide in places: no stiffer than radially.
+    **{("loblolly", "open rays", way): (0.2, SLOWER, "grid.cells=[106, 69]", specimen("loblolly", ""))
+       for way in PISTONS},
     **{("loblolly", f"its method{rays}", "tangential"): by_its_method(
         ("loblolly", rays), [150, 97], "material.yield_stress=100 MPa") for rays in ("", "_narrow_rays")},
     **{("loblolly", f"its method, ponderosa{scan}", "tangential"): by_its_method(
@@ -114,7 +116,7 @@ class Findings(unittest.TestCase):
     def test_hardwood_is_stiffer_along_its_rays_and_as_strong_in_both_directions_once_it_is_dense(self):
         poplar = [self.crushed("poplar", "whole", way) for way in PISTONS]
         self.assertGreater(self.stress(poplar[0], 0.01, 0.03), 2 * self.stress(poplar[1], 0.01, 0.03))
-        late = [self.stress(run, 0.35, 0.4) for run in poplar]
+        late = [self.stress(run, 0.4, 0.45) for run in poplar]  # it is dense from 38 % on (docs/wood_study.md)
         self.assertAlmostEqual(late[0] / late[1], 1, delta=0.1)
 
     def test_wood_is_dense_at_a_strain_that_grows_with_its_lumens_whatever_the_direction(self):

@@ -1,10 +1,11 @@
 #pragma once
 /// Von Mises flow of bricks that bend: the deviator at the centre and the moments of the plates
 /// across all axes yield together, and flow along the normal of the common surface,
-///   Q = q^2 + s^2 / 2 + sqrt(s^4 / 4 + sum over the plates of <N, T>^2) <= s_Y^2,
-/// that of shells (Ilyushin 1948, in the form of Ivanov 1967) as in bent_flow.hpp: T the stress of
-/// the fibres of a plate, s^2 the sum of its squares and that of warping, N the deviator at the
-/// centre, <N, T> = 3/2 N : T, of which q^2 = <N, N>. Rounded as there.
+///   Q = q^2 + s^2 / 2 + sqrt(s^4 / 4 + <N, T>^2) <= s_Y^2,
+/// that of shells (Ilyushin 1948, in the form of Ivanov 1967) as in bent_flow.hpp: N the deviator
+/// at the centre, T = +- T_1 +- T_2 +- T_3 that of the fibres of all plates where they cross, with
+/// those signs for which it is largest, <N, T> = 3/2 N : T, q^2 = <N, N>, and s^2 = <T, T> and the
+/// squares of warping. Rounded as there.
 
 #include <mpm/materials/bending.hpp>
 #include <mpm/materials/cutting_planes.hpp>
@@ -34,6 +35,7 @@ inline Tensor rotation_in(const Tensor& f)
 struct BrickStress {
   Symmetric deviator;                              ///< at the centre
   std::array<Lanes, bending_stresses<3>> bending;  ///< as in bending.hpp
+  Lanes sign[3] = {1.0, 1.0, 1.0};                 ///< of each plate's in that where they cross
 };
 
 class BrickFlow {
@@ -57,7 +59,8 @@ class BrickFlow {
     BrickStress t;
     for (std::size_t k = 0; k < t.bending.size(); ++k)
       t.bending[k] = load(columns + k * lane_count);
-    const Lanes fibres = squares(t.bending);
+    // At most: plates as if they all had fibres alike.
+    const Lanes fibres = most_of(t.bending);
     const Lanes limit = yield_.yield_stress + yield_.hardening_modulus * plastic_strain;
     const Lanes centre = 1.5 * deviator.squared();
     // As if all of the stress at the centre were along the fibres.
@@ -69,6 +72,7 @@ class BrickFlow {
     const Tensor rotation = rotation_of(columns);
     const Symmetric trial = deviator.turned(rotation.transposed());
     t.deviator = trial;
+    choose_signs(t);
     const BentReturn flow = cut_back(*this, t, yield_, 1e-6 * shear_modulus_, plastic_strain);
     if (!flow.any) {
       take_no_moments<3>(columns);
@@ -85,42 +89,58 @@ class BrickFlow {
 
   // For cut_back, and as fast as if they were written there:
   struct Found {
-    Lanes squared;                   ///< Q
-    Lanes half, root;                ///< half of s^2, rounded; the root in Q
-    std::array<Lanes, 3> centre[3];  ///< N along the fibres of each plate
-    Lanes product[3];                ///< <N, T>
+    Lanes squared;     ///< Q
+    Lanes half, root;  ///< half of s^2, rounded; the root in Q
+    Symmetric fibres;  ///< T
+    Lanes product;     ///< <N, T>
   };
   [[gnu::always_inline]] Found at(const BrickStress& t, const Lanes& rounded) const
   {
     Found found;
-    Lanes products = 0.0;
-    for (int j = 0; j < 3; ++j) {
-      found.centre[j] = along(t.deviator, j);
-      found.product[j] = 0.0;
-      for (std::size_t k = 0; k < 3; ++k)
-        found.product[j] += found.centre[j][k] * t.bending[3 * std::size_t(j) + k];
-      products += found.product[j] * found.product[j];
-    }
-    const Lanes fibres = squares(t.bending);
+    found.fibres = crossed(t);
+    Lanes fibres = 1.5 * found.fibres.squared();
+    for (std::size_t k = first_warping; k < t.bending.size(); ++k)
+      fibres += t.bending[k] * t.bending[k];
     found.half = 0.5 * fibres + rounded;
-    found.root = stdx::sqrt(found.half * found.half + products);
-    found.squared = 1.5 * t.deviator.squared() + 0.5 * fibres + (found.root - rounded);
+    found.product = 1.5 * t.deviator.contracted(found.fibres);
+    found.root = stdx::sqrt(found.half * found.half + found.product * found.product);
+    found.squared = 1.5 * t.deviator.squared() + found.half + found.root - 2.0 * rounded;
     return found;
   }
   [[gnu::always_inline]] BrickStress normal(const BrickStress& t, const Found& found,
                                             const Lanes& over) const
   {
-    const Lanes half_root = 0.5 / found.root;
+    const Lanes of_root = 0.5 / found.root * over, of_product = found.product * of_root,
+                of_fibres = 0.5 * over + found.half * of_root;
     BrickStress n;
-    n.deviator = over * t.deviator;
-    for (std::size_t k = 0; k < n.bending.size(); ++k)
-      n.bending[k] = (0.5 + found.half * half_root) * over * t.bending[k];
+    n.deviator = over * t.deviator + of_product * found.fibres;
+    const Symmetric by_fibres = of_fibres * found.fibres + of_product * t.deviator;
     for (int j = 0; j < 3; ++j) {
       const std::size_t first = 3 * std::size_t(j);
-      const Lanes factor = found.product[j] * half_root * over;
-      add(&t.bending[first], j, factor, n.deviator);
-      for (std::size_t k = 0; k < 3; ++k) n.bending[first + k] += factor * found.centre[j][k];
+      const std::array<Lanes, 3> slope = along(by_fibres, j);
+      const Crossing others = crossing(t, found.fibres, j);
+      // What does not depend on the plate's sign, and the rest. At right angles to the others' T
+      // both signs are as good: with that share of either slope with which it stays there.
+      const std::array<Lanes, 3> centre = along(t.deviator, j);
+      Lanes product = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) product += centre[k] * t.bending[first + k];
+      product *= of_root;
+      std::array<Lanes, 3> own, rest;
+      Lanes by_own = 0.0, by_rest = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        own[k] = of_fibres * t.bending[first + k] + product * centre[k];
+        rest[k] = t.sign[j] * slope[k] - own[k];
+        const Lanes weighted = t.sign[j] * modulus_[first + k] * others.along[k];
+        by_own += weighted * own[k];
+        by_rest += weighted * rest[k];
+      }
+      const Lanes still = -by_own / stdx::max(by_rest, Lanes(least));
+      const Lanes share = select(others.excess <= 0.0,
+                                 stdx::min(stdx::max(still, Lanes(-1.0)), Lanes(1.0)), Lanes(1.0));
+      for (std::size_t k = 0; k < 3; ++k) n.bending[first + k] = own[k] + share * rest[k];
     }
+    for (std::size_t k = first_warping; k < n.bending.size(); ++k)
+      n.bending[k] = of_fibres * t.bending[k];
     return n;
   }
   [[gnu::always_inline]] Lanes stiffness(const BrickStress& n) const
@@ -140,8 +160,20 @@ class BrickFlow {
       next[k] = t.bending[k] - modulus_[k] * amount * n.bending[k];
       left += next[k] * t.bending[k];
     }
+    const Symmetric fibres = crossed(t);
+    for (int j = 0; j < 3; ++j) {
+      // Nor one beyond where a plate's fibres and the others' are at right angles.
+      const Crossing others = crossing(t, fibres, j);
+      Lanes* part = &next[3 * std::size_t(j)];
+      Lanes product = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) product += others.along[k] * part[k];
+      const Lanes back = select(t.sign[j] * product < 0.0, product / others.stiffness, Lanes(0.0));
+      for (std::size_t k = 0; k < 3; ++k)
+        part[k] -= back * modulus_[3 * std::size_t(j) + k] * others.along[k];
+    }
     for (std::size_t k = 0; k < next.size(); ++k)
       t.bending[k] = select(left > 0.0, next[k], Lanes(0.0));
+    choose_signs(t);
   }
   [[gnu::always_inline]] Lanes work(const BrickStress& t, const BrickStress& trial) const
   {
@@ -153,11 +185,75 @@ class BrickFlow {
   }
 
  private:
-  static Lanes squares(const std::array<Lanes, bending_stresses<3>>& parts)
+  static constexpr std::size_t first_warping = 9;
+
+  /// Of s^2.
+  static Lanes most_of(const std::array<Lanes, bending_stresses<3>>& parts)
   {
-    Lanes sum = 0.0;
-    for (const Lanes& part : parts) sum += part * part;
+    Lanes plates = 0.0, warping = 0.0;
+    for (std::size_t k = 0; k < parts.size(); k += 3) {
+      const Lanes squares =
+          parts[k] * parts[k] + parts[k + 1] * parts[k + 1] + parts[k + 2] * parts[k + 2];
+      if (k < first_warping)
+        plates += stdx::sqrt(squares);
+      else
+        warping = squares;
+    }
+    return plates * plates + warping;
+  }
+  /// The deviator of the fibres of plate j.
+  static Symmetric plate(const BrickStress& t, int j)
+  {
+    Symmetric sum{};
+    add(&t.bending[3 * std::size_t(j)], j, Lanes(1.0), sum);
     return sum;
+  }
+  /// T
+  static Symmetric crossed(const BrickStress& t)
+  {
+    Symmetric sum{};
+    for (int j = 0; j < 3; ++j) add(&t.bending[3 * std::size_t(j)], j, t.sign[j], sum);
+    return sum;
+  }
+  /// Those for which T is largest.
+  static void choose_signs(BrickStress& t)
+  {
+    const Symmetric x = plate(t, 0), y = plate(t, 1), z = plate(t, 2);
+    const Lanes xy = x.contracted(y), yz = y.contracted(z), xz = x.contracted(z);
+    Lanes most = xy + yz + xz;
+    t.sign[1] = t.sign[2] = 1.0;
+    const auto better = [&](const Lanes& sum, double of_y, double of_z) {
+      t.sign[1] = select(sum > most, Lanes(of_y), t.sign[1]);
+      t.sign[2] = select(sum > most, Lanes(of_z), t.sign[2]);
+      most = stdx::max(sum, most);
+    };
+    better(xy - yz - xz, 1, -1);
+    better(xz - xy - yz, -1, 1);
+    better(yz - xy - xz, -1, -1);
+  }
+
+  /// What plate j has in common with the others.
+  struct Crossing {
+    std::array<Lanes, 3> along;  ///< of the others' T: <T, T_j> is the product with parts of T_j
+    Lanes excess;                ///< that product, with the plate's sign, beyond rounding
+    Lanes stiffness;             ///< by how much it changes with flow along them
+  };
+  Crossing crossing(const BrickStress& t, const Symmetric& fibres, int j) const
+  {
+    const std::size_t first = 3 * std::size_t(j);
+    Symmetric others = fibres;
+    add(&t.bending[first], j, -t.sign[j], others);
+    Crossing found{along(others, j), Lanes(0.0), Lanes(least)};
+    Lanes rounding = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Lanes &part = t.bending[first + k], &slope = found.along[k];
+      found.excess += t.sign[j] * part * slope;
+      rounding += part * part + slope * slope;
+      // Others of no size beside the plate's have no direction.
+      found.stiffness += modulus_[first + k] * (slope * slope + 1e-20 * part * part);
+    }
+    found.excess -= 1e-12 * rounding;
+    return found;
   }
   static Tensor rotation_of(const double* columns)
   {
@@ -186,6 +282,8 @@ class BrickFlow {
     *normal[(j + 2) % 3] += factor * (third - half);
     *shear[j] += factor * part[2] / std::sqrt(3.0);
   }
+
+  static constexpr double least = 1e-30;  ///< against division by zero
 
   double shear_modulus_;
   std::array<double, bending_stresses<3>> modulus_;  ///< Pa, of the stresses of fibres

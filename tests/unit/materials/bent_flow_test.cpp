@@ -16,23 +16,26 @@ namespace {
 const IsotropicConstants elastic{10e9, 0.3};
 constexpr double limit = 50e6;
 
-/// mean, along, shear, bending
-using Parts = std::array<double, 4>;
+/// mean, along, shear, bending of the fibres along either axis
+using Parts = std::array<double, 5>;
 
 BentStress lanes(const Parts& t)
 {
-  return {t[0], t[1], t[2], t[3]};
+  return {t[0], t[1], t[2], {t[3], t[4]}};
 }
 Parts parts(const BentStress& t)
 {
-  return {t.mean[0], t.along[0], t.shear[0], t.bending[0]};
+  return {t.mean[0], t.along[0], t.shear[0], t.bending[0][0], t.bending[1][0]};
 }
 Parts moduli(PlaneAssumption plane)
 {
   const double shear = 3 * elastic.shear_modulus(), e = elastic.youngs_modulus,
                nu = elastic.poisson_ratio;
-  if (plane == PlaneAssumption::strain) return {shear, shear, shear, e / (1 - nu * nu)};
-  return {e / (2 * (1 - nu)), shear, shear, e * 4 / 3};
+  if (plane == PlaneAssumption::strain) {
+    const double fibres = e / (1 - nu * nu);
+    return {shear, shear, shear, fibres, fibres};
+  }
+  return {e / (2 * (1 - nu)), shear, shear, e * 4 / 3, e * 4 / 3};
 }
 
 class BentFlowOf : public ::testing::TestWithParam<PlaneAssumption> {
@@ -42,7 +45,7 @@ class BentFlowOf : public ::testing::TestWithParam<PlaneAssumption> {
   {
     Parts t;
     for (double& part : t) part = uniform_(random_);
-    t[3] = std::abs(t[3]);
+    for (const std::size_t k : {3, 4}) t[k] = std::abs(t[k]);
     return t;
   }
   /// On the yield surface: drawn towards the origin by bisection.
@@ -81,16 +84,49 @@ TEST_P(BentFlowOf, IsThatOfASectionWhoseFibresYieldAllThrough)
     }
     // What lies along the fibres is, in plane stress, part of the mean as well.
     const bool strain = GetParam() == PlaneAssumption::strain;
-    const Parts direction = strain ? Parts{0, along, other, std::abs(bending)}
-                                   : Parts{0.5 * along, root * along, other, std::abs(bending)};
+    const Parts direction = strain ? Parts{0, along, other, std::abs(bending), 0}
+                                   : Parts{0.5 * along, root * along, other, std::abs(bending), 0};
     const Parts found = bound(direction);
     const double ratio = std::hypot(found[0], found[1], found[2]) /
                          (limit * std::hypot(direction[0], direction[1], direction[2]));
     EXPECT_GT(ratio, 0.93) << g << " " << p << " " << kappa;
     EXPECT_LT(ratio, 1 + 0.5 * rounded_vertex) << g << " " << p << " " << kappa;
-    const Parts straight = bound(strain ? Parts{0, along, 0, 1 - along * along}
-                                        : Parts{0.5 * along, root * along, 0, 1 - along * along});
-    EXPECT_NEAR(straight[3] / (limit * (1 - along * along)), 1, 0.6 * rounded_vertex);
+    const double rest = 1 - along * along;
+    const Parts straight =
+        bound(strain ? Parts{0, along, 0, rest, 0} : Parts{0.5 * along, root * along, 0, rest, 0});
+    EXPECT_NEAR(straight[3] / (limit * rest), 1, 0.6 * rounded_vertex);
+  }
+}
+
+/// Stresses along x that depend on y alone and along y on x alone: the cell bears their means and
+/// moments where no two that cross yield.
+TEST_P(BentFlowOf, BearsWhatFibresAlongBothAxesCan)
+{
+  const bool strain = GetParam() == PlaneAssumption::strain;
+  const double root = std::sqrt(0.75);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double n = uniform_(random_), share = 0.5 + 0.5 * uniform_(random_);
+    const double size[2] = {share, 1 - share};
+    constexpr int fibres = 2000;
+    double mean[2] = {}, bending[2] = {};
+    for (int axis = 0; axis < 2; ++axis)
+      for (int k = 0; k < fibres; ++k) {
+        const double y = (k + 0.5) / fibres * 2 - 1, one = y < n ? size[axis] : -size[axis];
+        mean[axis] += (axis ? -one : one) / fibres;
+        bending[axis] -= 2 * one * y / fibres;  // over that of fibres that yield
+      }
+    // Largest where the two are opposite.
+    const double crossed = strain ? size[0] + size[1] : std::sqrt(1 - size[0] * size[1]);
+    Parts direction{0, (mean[0] - mean[1]) / crossed, 0, bending[0] / crossed,
+                    bending[1] / crossed};
+    if (!strain) {
+      direction[0] = 0.5 * (mean[0] + mean[1]) / crossed;
+      direction[1] *= root;
+    }
+    const Parts found = bound(direction);
+    const double ratio = found[3] / (limit * direction[3]);
+    EXPECT_GT(ratio, strain ? 1 - 1e-3 : 0.93) << n << " " << share;
+    EXPECT_LT(ratio, 1 + 0.6 * rounded_vertex) << n << " " << share;
   }
 }
 
@@ -101,8 +137,8 @@ TEST_P(BentFlowOf, DissipatesTheMost)
   for (int trial = 0; trial < 200; ++trial) {
     Parts t = bound(any());
     const Parts step = any();
-    for (std::size_t k = 0; k < 4; ++k) t[k] += 1e-4 * limit * step[k];
-    t[3] = std::max(t[3], 0.0);
+    for (std::size_t k = 0; k < t.size(); ++k) t[k] += 1e-4 * limit * step[k];
+    for (const std::size_t k : {3, 4}) t[k] = std::max(t[k], 0.0);
     BentStress stress = lanes(t);
     const BentReturn flowed = flow()(stress, 0.0);
     if (!flowed.any) continue;
@@ -111,7 +147,7 @@ TEST_P(BentFlowOf, DissipatesTheMost)
     for (int other = 0; other < 200; ++other) {
       const Parts allowed = bound(any());
       double work = 0, size = 0;
-      for (std::size_t k = 0; k < 4; ++k) {
+      for (std::size_t k = 0; k < t.size(); ++k) {
         work += (now[k] - allowed[k]) * (t[k] - now[k]) / modulus[k];
         size += std::abs(t[k] - now[k]) / modulus[k];
       }
@@ -129,7 +165,7 @@ TEST_P(BentFlowOf, EndsOnTheYieldSurfaceAndHardens)
     Parts t{};
     double strain = 0;
     for (int k = 0; k < 2000; ++k) {
-      for (std::size_t part = 0; part < 4; ++part) t[part] += 4e-3 * limit * step[part];
+      for (std::size_t part = 0; part < t.size(); ++part) t[part] += 4e-3 * limit * step[part];
       BentStress stress = lanes(t);
       strain += flow(hardening)(stress, strain).plastic_strain[0];
       t = parts(stress);
@@ -146,7 +182,7 @@ TEST_P(BentFlowOf, EndsOnTheYieldSurfaceAndHardens)
 
 TEST_P(BentFlowOf, LeavesWhatDoesNotYield)
 {
-  const Parts t{0.1 * limit, -0.3 * limit, 0.2 * limit, 0.4 * limit};
+  const Parts t{0.1 * limit, -0.3 * limit, 0.2 * limit, 0.3 * limit, 0.1 * limit};
   BentStress stress = lanes(t);
   EXPECT_FALSE(flow()(stress, 0.0).any);
   EXPECT_EQ(parts(stress), t);
@@ -236,6 +272,78 @@ TEST_F(BrickFlowTest, OfAPlateIsThatOfASectionWhoseFibresYieldAllThrough)
       sheared.bending[6] = more * std::sqrt(1 - n * n) * limit * 0.5;
       sheared.bending[7] = more * std::sqrt(1 - n * n) * limit * std::sqrt(0.75);
       EXPECT_EQ(flow_of(sheared).any, more > 1) << n;
+    }
+  }
+}
+
+/// Where two walls that are held along z meet: as cells of the plane do, and in space as in the
+/// plane whichever way either is bent.
+TEST_F(BrickFlowTest, BearsTheMomentsOfPlatesThatCross)
+{
+  for (const double share : {0.0, 0.2, 0.5, 1.0})
+    for (const double sign : {-1.0, 1.0})
+      for (const double n : {0.0, 0.3, 0.7})
+        for (const double more : {0.999, 1 + 0.6 * rounded_vertex}) {
+          // Stress s along the fibres and s / 2 along z; in plane strain the centre is sheared.
+          const double size = more * limit, moment = (1 - n * n) * size / std::sqrt(0.75);
+          Brick brick{n * size / std::sqrt(3.0) * Matrix(Vec<3>(1, -1, 0).asDiagonal()),
+                      Matrix::Identity(),
+                      {}};
+          const auto bend = [&](std::size_t first, double along_first, double along_second) {
+            brick.bending[first] = 0.5 * (along_first + along_second);
+            brick.bending[first + 1] = std::sqrt(0.75) * (along_first - along_second);
+          };
+          bend(0, share * moment, 0.5 * share * moment);                            // y, z
+          bend(3, 0.5 * sign * (1 - share) * moment, sign * (1 - share) * moment);  // z, x
+          EXPECT_EQ(flow_of(brick).any, more > 1) << share << " " << sign << " " << n;
+        }
+}
+
+/// (t - t*) C^-1 (t_trial - t) >= 0 for every stress t* that is allowed, with the moduli of
+/// bending.hpp.
+TEST_F(BrickFlowTest, DissipatesTheMost)
+{
+  const double shear = 3 * elastic.shear_modulus();
+  const BendingModuli<3> moduli(elastic);
+  const auto modulus = [&](std::size_t k) {
+    return k >= 9       ? moduli.fibres * 16 / 9
+           : k % 3 == 0 ? moduli.alike * 2 / 3
+                        : moduli.opposite * 2;
+  };
+  const auto bound = [](Brick brick) {
+    double inside = 0, outside = 10;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = 0.5 * (inside + outside);
+      Brick tried = brick;
+      tried.deviator *= middle;
+      for (double& part : tried.bending) part *= middle;
+      (flow_of(tried).any ? outside : inside) = middle;
+    }
+    brick.deviator *= inside;
+    for (double& part : brick.bending) part *= inside;
+    return brick;
+  };
+  for (int trial = 0; trial < 60; ++trial) {
+    Brick trial_stress = bound(any(limit));
+    trial_stress.deformation = Matrix::Identity();
+    const Brick step = any(1e-4 * limit);
+    trial_stress.deviator += step.deviator;
+    for (std::size_t k = 0; k < 12; ++k) trial_stress.bending[k] += step.bending[k];
+    Brick now = trial_stress;
+    if (!flow_of(now).any) continue;
+    for (int other = 0; other < 60; ++other) {
+      Brick allowed = any(limit);
+      allowed.deformation = Matrix::Identity();
+      allowed = bound(allowed);
+      const Matrix lost = trial_stress.deviator - now.deviator;
+      double work = 1.5 / shear * (now.deviator - allowed.deviator).cwiseProduct(lost).sum(),
+             size = std::sqrt(1.5) / shear * lost.norm();
+      for (std::size_t k = 0; k < 12; ++k) {
+        const double flowed = (trial_stress.bending[k] - now.bending[k]) / modulus(k);
+        work += (now.bending[k] - allowed.bending[k]) * flowed;
+        size += std::abs(flowed);
+      }
+      EXPECT_GT(work, -1e-2 * limit * size) << trial << " " << other;
     }
   }
 }
