@@ -59,20 +59,25 @@ class BrickFlow {
     BrickStress t;
     for (std::size_t k = 0; k < t.bending.size(); ++k)
       t.bending[k] = load(columns + k * lane_count);
-    // At most: plates as if they all had fibres alike.
-    const Lanes fibres = most_of(t.bending);
     const Lanes limit = yield_.yield_stress + yield_.hardening_modulus * plastic_strain;
     const Lanes centre = 1.5 * deviator.squared();
-    // As if all of the stress at the centre were along the fibres.
-    const Lanes most = centre + 0.5 * fibres + stdx::sqrt((0.25 * fibres + centre) * fibres);
-    if (stdx::none_of(most > limit * limit)) {
+    // At most, as if all of the stress at the centre were along the fibres.
+    const auto none_yields = [&](const Lanes& fibres) {
+      const Lanes most = centre + 0.5 * fibres + stdx::sqrt((0.25 * fibres + centre) * fibres);
+      return stdx::none_of(most > limit * limit);
+    };
+    if (none_yields(most_of(t.bending))) {
+      take_no_moments<3>(columns);
+      return {};
+    }
+    choose_signs(t);
+    if (none_yields(squared(t, crossed(t)))) {
       take_no_moments<3>(columns);
       return {};
     }
     const Tensor rotation = rotation_of(columns);
     const Symmetric trial = deviator.turned(rotation.transposed());
     t.deviator = trial;
-    choose_signs(t);
     const BentReturn flow = cut_back(*this, t, yield_, 1e-6 * shear_modulus_, plastic_strain);
     if (!flow.any) {
       take_no_moments<3>(columns);
@@ -98,10 +103,7 @@ class BrickFlow {
   {
     Found found;
     found.fibres = crossed(t);
-    Lanes fibres = 1.5 * found.fibres.squared();
-    for (std::size_t k = first_warping; k < t.bending.size(); ++k)
-      fibres += t.bending[k] * t.bending[k];
-    found.half = 0.5 * fibres + rounded;
+    found.half = 0.5 * squared(t, found.fibres) + rounded;
     found.product = 1.5 * t.deviator.contracted(found.fibres);
     found.root = stdx::sqrt(found.half * found.half + found.product * found.product);
     found.squared = 1.5 * t.deviator.squared() + found.half + found.root - 2.0 * rounded;
@@ -187,7 +189,15 @@ class BrickFlow {
  private:
   static constexpr std::size_t first_warping = 9;
 
-  /// Of s^2.
+  /// s^2
+  static Lanes squared(const BrickStress& t, const Symmetric& fibres)
+  {
+    Lanes sum = 1.5 * fibres.squared();
+    for (std::size_t k = first_warping; k < t.bending.size(); ++k)
+      sum += t.bending[k] * t.bending[k];
+    return sum;
+  }
+  /// Of s^2: plates as if they all had fibres alike.
   static Lanes most_of(const std::array<Lanes, bending_stresses<3>>& parts)
   {
     Lanes plates = 0.0, warping = 0.0;
