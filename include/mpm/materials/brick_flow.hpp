@@ -99,6 +99,17 @@ class BrickFlow {
     Symmetric fibres;  ///< T
     Lanes product;     ///< <N, T>
   };
+  /// What a plate has in common with the others.
+  struct Crossing {
+    std::array<Lanes, 3> along;  ///< of the others' T: <T, T_j> is the product with parts of T_j
+    Lanes excess;                ///< that product, with the plate's sign, beyond rounding
+    Lanes stiffness;             ///< by how much it changes with flow along them
+  };
+  struct Normal {
+    Symmetric deviator;
+    std::array<Lanes, bending_stresses<3>> bending;
+    Crossing crossing[3];  ///< of the plates of the stress that it is of
+  };
   [[gnu::always_inline]] Found at(const BrickStress& t, const Lanes& rounded) const
   {
     Found found;
@@ -109,24 +120,22 @@ class BrickFlow {
     found.squared = 1.5 * t.deviator.squared() + found.half + found.root - 2.0 * rounded;
     return found;
   }
-  [[gnu::always_inline]] BrickStress normal(const BrickStress& t, const Found& found,
-                                            const Lanes& over) const
+  [[gnu::always_inline]] Normal normal(const BrickStress& t, const Found& found,
+                                       const Lanes& over) const
   {
     const Lanes of_root = 0.5 / found.root * over, of_product = found.product * of_root,
                 of_fibres = 0.5 * over + found.half * of_root;
-    BrickStress n;
+    Normal n;
     n.deviator = over * t.deviator + of_product * found.fibres;
     const Symmetric by_fibres = of_fibres * found.fibres + of_product * t.deviator;
     for (int j = 0; j < 3; ++j) {
       const std::size_t first = 3 * std::size_t(j);
       const std::array<Lanes, 3> slope = along(by_fibres, j);
-      const Crossing others = crossing(t, found.fibres, j);
+      const Crossing& others = n.crossing[j] = crossing(t, found.fibres, j);
       // What does not depend on the plate's sign, and the rest. At right angles to the others' T
       // both signs are as good: with that share of either slope with which it stays there.
       const std::array<Lanes, 3> centre = along(t.deviator, j);
-      Lanes product = 0.0;
-      for (std::size_t k = 0; k < 3; ++k) product += centre[k] * t.bending[first + k];
-      product *= of_root;
+      const Lanes product = of_root * dot(centre, &t.bending[first]);
       std::array<Lanes, 3> own, rest;
       Lanes by_own = 0.0, by_rest = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -145,14 +154,14 @@ class BrickFlow {
       n.bending[k] = of_fibres * t.bending[k];
     return n;
   }
-  [[gnu::always_inline]] Lanes stiffness(const BrickStress& n) const
+  [[gnu::always_inline]] Lanes stiffness(const Normal& n) const
   {
     Lanes sum = shear_modulus_ * 1.5 * n.deviator.squared();
     for (std::size_t k = 0; k < n.bending.size(); ++k)
       sum += modulus_[k] * n.bending[k] * n.bending[k];
     return sum;
   }
-  [[gnu::always_inline]] void flow(BrickStress& t, const BrickStress& n, const Lanes& amount) const
+  [[gnu::always_inline]] void flow(BrickStress& t, const Normal& n, const Lanes& amount) const
   {
     t.deviator = t.deviator + (-shear_modulus_ * amount) * n.deviator;
     // A plane that cuts beyond where the moments are gone is of no use there.
@@ -162,13 +171,11 @@ class BrickFlow {
       next[k] = t.bending[k] - modulus_[k] * amount * n.bending[k];
       left += next[k] * t.bending[k];
     }
-    const Symmetric fibres = crossed(t);
     for (int j = 0; j < 3; ++j) {
       // Nor one beyond where a plate's fibres and the others' are at right angles.
-      const Crossing others = crossing(t, fibres, j);
+      const Crossing& others = n.crossing[j];
       Lanes* part = &next[3 * std::size_t(j)];
-      Lanes product = 0.0;
-      for (std::size_t k = 0; k < 3; ++k) product += others.along[k] * part[k];
+      const Lanes product = dot(others.along, part);
       const Lanes back = select(t.sign[j] * product < 0.0, product / others.stiffness, Lanes(0.0));
       for (std::size_t k = 0; k < 3; ++k)
         part[k] -= back * modulus_[3 * std::size_t(j) + k] * others.along[k];
@@ -189,6 +196,10 @@ class BrickFlow {
  private:
   static constexpr std::size_t first_warping = 9;
 
+  static Lanes dot(const std::array<Lanes, 3>& slope, const Lanes* part)
+  {
+    return slope[0] * part[0] + slope[1] * part[1] + slope[2] * part[2];
+  }
   /// s^2
   static Lanes squared(const BrickStress& t, const Symmetric& fibres)
   {
@@ -242,27 +253,20 @@ class BrickFlow {
     better(yz - xy - xz, -1, -1);
   }
 
-  /// What plate j has in common with the others.
-  struct Crossing {
-    std::array<Lanes, 3> along;  ///< of the others' T: <T, T_j> is the product with parts of T_j
-    Lanes excess;                ///< that product, with the plate's sign, beyond rounding
-    Lanes stiffness;             ///< by how much it changes with flow along them
-  };
+  /// Of plate j.
   Crossing crossing(const BrickStress& t, const Symmetric& fibres, int j) const
   {
     const std::size_t first = 3 * std::size_t(j);
     Symmetric others = fibres;
     add(&t.bending[first], j, -t.sign[j], others);
     Crossing found{along(others, j), Lanes(0.0), Lanes(least)};
-    Lanes rounding = 0.0;
+    found.excess = t.sign[j] * dot(found.along, &t.bending[first]);
     for (std::size_t k = 0; k < 3; ++k) {
       const Lanes &part = t.bending[first + k], &slope = found.along[k];
-      found.excess += t.sign[j] * part * slope;
-      rounding += part * part + slope * slope;
+      found.excess -= 1e-12 * (part * part + slope * slope);
       // Others of no size beside the plate's have no direction.
       found.stiffness += modulus_[first + k] * (slope * slope + 1e-20 * part * part);
     }
-    found.excess -= 1e-12 * rounding;
     return found;
   }
   static Tensor rotation_of(const double* columns)

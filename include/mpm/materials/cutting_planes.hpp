@@ -39,7 +39,7 @@ template <class Surface, class Stress>
     const Lanes now = limit + yield.hardening_modulus * multiplier;
     const Lanes stress = select(result.yields, stdx::sqrt(found.squared), now);
     const bool last = stdx::all_of(stdx::abs(stress - now) <= tolerance * now);
-    const Stress normal = surface.normal(t, found, 1.0 / stress);
+    const auto normal = surface.normal(t, found, 1.0 / stress);
     const Lanes stiffness = surface.stiffness(normal) + yield.hardening_modulus;
     const Lanes amount = (stress - now) / stdx::max(stiffness, Lanes(least_stiffness));
     multiplier += amount;

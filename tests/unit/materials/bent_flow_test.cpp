@@ -16,6 +16,18 @@ namespace {
 const IsotropicConstants elastic{10e9, 0.3};
 constexpr double limit = 50e6;
 
+/// The largest factor up to `outside` for which nothing flows.
+template <class Flows>
+double largest_below(double outside, Flows flows)
+{
+  double inside = 0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (inside + outside);
+    (flows(middle) ? outside : inside) = middle;
+  }
+  return inside;
+}
+
 /// mean, along, shear, bending of the fibres along either axis
 using Parts = std::array<double, 5>;
 
@@ -51,17 +63,15 @@ class BentFlowOf : public ::testing::TestWithParam<PlaneAssumption> {
   /// On the yield surface: drawn towards the origin by bisection.
   Parts bound(const Parts& direction) const
   {
-    double inside = 0, outside = 10 * limit;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = 0.5 * (inside + outside);
+    const auto scaled = [&direction](double factor) {
       Parts t = direction;
-      for (double& part : t) part *= middle;
-      BentStress stress = lanes(t);
-      (flow()(stress, 0.0).any ? outside : inside) = middle;
-    }
-    Parts t = direction;
-    for (double& part : t) part *= inside;
-    return t;
+      for (double& part : t) part *= factor;
+      return t;
+    };
+    return scaled(largest_below(10 * limit, [&](double factor) {
+      BentStress stress = lanes(scaled(factor));
+      return flow()(stress, 0.0).any;
+    }));
   }
   std::mt19937 random_{7};
   std::uniform_real_distribution<double> uniform_{-1, 1};
@@ -310,18 +320,17 @@ TEST_F(BrickFlowTest, DissipatesTheMost)
            : k % 3 == 0 ? moduli.alike * 2 / 3
                         : moduli.opposite * 2;
   };
-  const auto bound = [](Brick brick) {
-    double inside = 0, outside = 10;
-    for (int k = 0; k < 50; ++k) {
-      const double middle = 0.5 * (inside + outside);
-      Brick tried = brick;
-      tried.deviator *= middle;
-      for (double& part : tried.bending) part *= middle;
-      (flow_of(tried).any ? outside : inside) = middle;
-    }
-    brick.deviator *= inside;
-    for (double& part : brick.bending) part *= inside;
-    return brick;
+  const auto bound = [](const Brick& brick) {
+    const auto scaled = [&brick](double factor) {
+      Brick other = brick;
+      other.deviator *= factor;
+      for (double& part : other.bending) part *= factor;
+      return other;
+    };
+    return scaled(largest_below(10, [&](double factor) {
+      Brick tried = scaled(factor);
+      return flow_of(tried).any;
+    }));
   };
   for (int trial = 0; trial < 60; ++trial) {
     Brick trial_stress = bound(any(limit));
@@ -343,7 +352,7 @@ TEST_F(BrickFlowTest, DissipatesTheMost)
         work += (now.bending[k] - allowed.bending[k]) * flowed;
         size += std::abs(flowed);
       }
-      EXPECT_GT(work, -1e-2 * limit * size) << trial << " " << other;
+      EXPECT_GT(work, -1e-3 * limit * size) << trial << " " << other;
     }
   }
 }
