@@ -6,10 +6,11 @@
                                   a later folder takes the place of an earlier one, study by study
     wood_study_page.py --again RESULTS
                                   first compares with what was taken: the same studies, or some of
-                                  them, made again on another machine, ranks or version
+                                  them, made again on another machine, or by a newer program
     wood_study_page.py            writes the page anew
     wood_study_page.py --check    only says whether the page is the one that would be written
 """
+import collections
 import csv
 import functools
 import io
@@ -41,7 +42,7 @@ FOLDER = runs.PROJECT / "docs" / "wood_study"
 TEXT = Path(__file__).with_name("wood_study_page.md")
 KEPT = ("study.csv", "study.json")
 MPM_CURVE = runs.PROJECT / "build" / "mpm_curve"
-AGAIN = FOLDER / "again.json"
+AGAIN, NEWER = FOLDER / "again.json", FOLDER / "newer.json"  # by the same program, and by a newer one
 FORMULATIONS = runs.PROJECT / "docs" / "formulations" / "ladders.csv"
 IN_FORMULATIONS = "loblolly, tangential", "poplar, tangential", "poplar, radial", "loblolly, radial"
 RISING_LINES = ("4", "8"), ("8", "16")  # times the plateau's last stress, beside the 2 and 4 of runs
@@ -228,12 +229,14 @@ def ended_by_settings(study):
 
 def compare(results):
     """Writes what the runs of another folder have where the kept ones have a figure, too."""
-    found, ranks = [], set()
+    found, ranks, places, programs = [], set(), set(), set()
     folders = study_folders(results)
     if not folders:
         sys.exit(f"{results}: holds no study. Name the folder that mpm_study has written.")
     for folder in folders:
         study, repeated = read_study(FOLDER / folder.name), read_study(folder)
+        programs.add(program_of(repeated.record))
+        places.add(AGAIN if program_of(repeated.record) == program_of(study.record) else NEWER)
         first = ended_by_settings(study)
         for settings, run in ended_by_settings(repeated).items():
             if settings not in first:
@@ -241,37 +244,69 @@ def compare(results):
                          f"{FOLDER / folder.name}: another variant (--quick)?")
             figures = {}
             for name in [f"value_{measure['name']}" for measure in study_facts.numbers(study)]:
-                if None not in (first[settings][name], run[name]):
-                    figures[name.removeprefix("value_")] = [first[settings][name], run[name]]
+                if (pair := [first[settings][name], run[name]]) != [None, None]:
+                    figures[name.removeprefix("value_")] = pair
             found.append({"study": study.title, "run": study_facts.name_of(repeated, run), "figures": figures})
             ranks.add(run["settings"].get("ranks", "1"))
-    record = {"machine": repeated.record["machine"], "ranks": sorted(ranks), "runs": found}
-    AGAIN.write_text(json.dumps(record, indent=1) + "\n")
+    if len(places) > 1:
+        sys.exit(f"{results}: some studies are by the program that the page is by and some by another one")
+    record = {"machine": repeated.record["machine"], "programs": sorted(programs), "ranks": sorted(ranks),
+              "runs": found}
+    places.pop().write_text(json.dumps(record, indent=1) + "\n")
+
+
+def program_of(record):
+    return record["mpm_par"]["git"][:7]
 
 
 def processor_of(record):
     return record["machine"]["processor"].replace("(R)", "").removesuffix(" Processor")
 
 
-def again():
-    """What was made again where, and how far each figure moved over all of these runs."""
-    record = json.loads(AGAIN.read_text())
+def made_again(place):
+    """What was made again where, and how far each figure moved over all of these runs: what may stand in braces,
+    by names that begin with that of the file."""
+    record = json.loads(place.read_text())
     named = ", ".join(f"*{title}*" for title in dict.fromkeys(run["study"] for run in record["runs"]))
-    opening = (f"Of {named} {len(record['runs'])} runs were made again, on {' and '.join(record['ranks'])} "
-               f"rank{'s' * (record['ranks'] != ['1'])} of an {processor_of(record)}.")
-    moved = {}
+    opening = (f"Of {named} {len(record['runs'])} runs were made again by {' and '.join(record['programs'])}, on "
+               f"{' and '.join(record['ranks'])} rank{'s' * (record['ranks'] != ['1'])} of an "
+               f"{processor_of(record)}.")
+    moved, alone = {}, collections.Counter()
     for run in record["runs"]:
-        for name, (first, repeated) in run["figures"].items():
-            way = repeated / first - 1
+        for name, pair in run["figures"].items():
+            if None in pair:
+                alone[name] += 1
+                continue
+            way = pair[1] / pair[0] - 1
             moved.setdefault(name, []).append((abs(way), way, f"{run['study']}: {run['run']}"))
     lines = []
     for name, found in moved.items():
         sizes = [size for size, *_ in found]
         _, most, where = max(found)
         lines.append([name.replace("_", " "), str(len(sizes)), f"{100 * statistics.median(sizes):.2g} %",
-                      f"{sum(size > 0.01 for size in sizes)}", f"{100 * most:+.2g} %", where])
-    heads = ["figure", "runs", "half moved by less than", "by more than 1 %", "most", "which"]
-    return {"again_opening": opening, "again_runs": str(len(record["runs"])), "again": table(heads, lines)}
+                      f"{sum(size > 0.01 for size in sizes)}", f"{100 * most:+.2g} %", where, str(alone[name])])
+    heads = ["figure", "runs", "half moved by less than", "by more than 1 %", "most", "which", "found in one alone"]
+    return {f"{place.stem}_opening": opening, f"{place.stem}_runs": str(len(record["runs"])),
+            place.stem: table(heads, lines)}
+
+
+def changed_verdicts():
+    """Of Table 1's properties, by the newer program."""
+    runs_again = {(run["study"], run["run"]): run["figures"] for run in json.loads(NEWER.read_text())["runs"]}
+    lines, count = [], 0
+    for one in table_1():
+        name, label = TABLE_1[one.wood]
+        figures = runs_again.get((read_study(FOLDER / name).title, label), {})
+        if one.measure["name"] not in figures:
+            continue
+        count += 1
+        later = one.repeated(*figures[one.measure["name"]])
+        if later.verdict() != one.verdict():
+            lines.append([one.wood, study_facts.title(one.measure), one.shown(one.best()[0]),
+                          one.shown(later.best()[0]), one.shown(one.known), one.verdict(), later.verdict()])
+    heads = ["wood", "property", "on this page", "by the newer program", "paper", "verdict", "by the newer program"]
+    return {"newer_properties": str(count), "changed": str(len(lines)),
+            "changed_verdicts": table(heads, lines) if lines else ""}
 
 
 def moduli_of_ladders():
@@ -300,6 +335,11 @@ class Property(typing.NamedTuple):
     def best(self):
         """What the drawing has as far as is known, and the numerical error of it."""
         return (self.found, self.error) if self.finer is None else (self.finer, self.finer_error)
+
+    def repeated(self, first, newer):
+        """By a program that finds the newer figure where the first was: on finer cells, by as much another one."""
+        finer = None if None in (self.finer, first, newer) else self.finer * newer / first
+        return self._replace(found=newer, finer=finer)
 
     def verdict(self):
         best, error = self.best()
@@ -421,7 +461,7 @@ def took():
         count, elapsed, core_seconds = study_facts.cost([study])
         lines.append([study.title, str(count), "quick" if study.record["quick"] else "full",
                       f"{core_seconds / elapsed:g}", facts.clock(elapsed), processor_of(study.record),
-                      study.record["mpm_par"]["git"][:7]])
+                      program_of(study.record)])
     total = study_facts.cost(found)
     lines.append(["all", str(total[0]), "", "", facts.clock(total[1]), "", ""])
     return table(heads, lines)
@@ -431,7 +471,8 @@ def values():
     """What may stand in braces in wood_study_page.md."""
     found = {"took": took(), "moduli_of_ladders": moduli_of_ladders(), "how_well_known": how_well_known(),
              "pieces_beside_paper": pieces_beside_paper(),
-             **{f"{name}_last_levels": last_levels(name) for name in (*LADDERS, *FINER_LADDERS)}} | again()
+             **{f"{name}_last_levels": last_levels(name) for name in (*LADDERS, *FINER_LADDERS)}}
+    found |= made_again(AGAIN) | made_again(NEWER) | changed_verdicts()
     for folder in study_folders(FOLDER):
         study = read_study(folder)
         for name in TABLES:

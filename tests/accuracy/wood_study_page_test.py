@@ -1,5 +1,8 @@
 """What the page works out of what its studies found, on figures made by hand."""
+import json
+import tempfile
 import unittest
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy
@@ -27,6 +30,34 @@ class At(dict):
     def __init__(self, fields, strain):
         super().__init__(fields)
         self.strain = strain
+
+
+class MadeAgain(unittest.TestCase):
+    MACHINE = {"processor": "Abacus(R) Processor"}
+
+    def test_says_how_far_figures_moved_and_what_one_alone_found(self):
+        runs = [{"study": "Oak", "run": f"{k} m/s", "figures": {"modulus": [100.0, repeated], "toe": toe}}
+                for k, (repeated, toe) in enumerate([(100.5, [None, 1.0]), (97.0, [2.0, None]), (102.0, [4.0, 4.0])])]
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder) / "newer.json"
+            place.write_text(json.dumps({"machine": self.MACHINE, "programs": ["abcdef0"], "ranks": ["1"],
+                                         "runs": runs}))
+            found = page.made_again(place)
+        self.assertEqual(found["newer_opening"],
+                         "Of *Oak* 3 runs were made again by abcdef0, on 1 rank of an Abacus.")
+        self.assertEqual(found["newer_runs"], "3")
+        *_, modulus, toe = found["newer"].splitlines()
+        self.assertEqual(modulus, "| modulus | 3 | 2 % | 2 | -3 % | Oak: 1 m/s | 0 |")
+        self.assertEqual(toe, "| toe | 1 | 0 % | 0 | +0 % | Oak: 2 m/s | 2 |")
+
+    def test_a_figure_that_moved_moves_what_finer_cells_make_of_it(self):
+        one = page.Property("oak", MEASURE, 110.0, 5.0, 119.0, 5.0, None, 100.0)
+        self.assertEqual((one.verdict(), one.repeated(110.0, 112.0).verdict()), ("agrees", "differs"))
+        self.assertAlmostEqual(one.repeated(110.0, 121.0).finer, 130.9)
+        self.assertEqual(one.repeated(110.0, None).verdict(), "not found")
+        coarse = one._replace(finer=None)
+        self.assertEqual((coarse.repeated(110.0, 121.0).verdict(), coarse.repeated(None, 90.0).verdict()),
+                         ("differs", "agrees"))
 
 
 class FinerCells(unittest.TestCase):
