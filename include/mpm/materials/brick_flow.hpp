@@ -69,7 +69,7 @@ class BrickFlow {
       const Lanes most = centre + 0.5 * fibres + stdx::sqrt((0.25 * fibres + centre) * fibres);
       return stdx::none_of(most > limit * limit);
     };
-    if (none_yields(most_of(t.bending)) || none_yields(Crossings(t.bending).largest())) {
+    if (none_yields(most_of(t.bending)) || none_yields(largest_of(Crossings(t.bending).squared))) {
       take_no_moments<3>(columns);
       return {};
     }
@@ -102,21 +102,19 @@ class BrickFlow {
   [[gnu::always_inline]] Found at(const BrickStress& t, const Lanes& rounded) const
   {
     const Crossings crossings(t.bending);
-    Lanes products[3], half[4], root[4], product[4], share[4];
+    Lanes products[3], half[4], root[4], product[4], value[4], share[4];
     for (std::size_t j = 0; j < 3; ++j) products[j] = 1.5 * t.deviator.contracted(crossings.of[j]);
     for (std::size_t c = 0; c < 4; ++c) {
       half[c] = 0.5 * crossings.squared[c] + rounded;
       const auto& [x, y, z] = signs[c];
       product[c] = x * products[0] + y * products[1] + z * products[2];
       root[c] = stdx::sqrt(half[c] * half[c] + product[c] * product[c]);
+      value[c] = half[c] + root[c];
     }
-    Lanes largest = half[0] + root[0];
-    for (std::size_t c = 1; c < 4; ++c) largest = stdx::max(largest, half[c] + root[c]);
-    const Lanes inverse = 1.0 / rounded;
+    const Lanes largest = largest_of(value), inverse = 1.0 / rounded;
     Lanes sum = 0.0;
     for (std::size_t c = 0; c < 4; ++c) {
-      const Lanes below = (half[c] + root[c] - largest) * inverse;
-      share[c] = lane_exp(stdx::max(below, Lanes(-700.0)));
+      share[c] = lane_exp(stdx::max((value[c] - largest) * inverse, Lanes(-700.0)));
       sum += share[c];
     }
     Found found{.squared = 1.5 * t.deviator.squared() + largest + rounded * lane_log(0.25 * sum) -
@@ -208,11 +206,11 @@ class BrickFlow {
         squared[c] = apart + y * z * yz + x * z * xz + x * y * xy;
       }
     }
-    Lanes largest() const
-    {
-      return stdx::max(stdx::max(squared[0], squared[1]), stdx::max(squared[2], squared[3]));
-    }
   };
+  static Lanes largest_of(const Lanes (&values)[4])
+  {
+    return stdx::max(stdx::max(values[0], values[1]), stdx::max(values[2], values[3]));
+  }
 
   /// Of s^2: plates as if they all had fibres alike.
   static Lanes most_of(const std::array<Lanes, bending_stresses<3>>& parts)
