@@ -228,31 +228,39 @@ def ended_by_settings(study):
 
 
 def compare(results):
-    """Writes what the runs of another folder have where the kept ones have a figure, too."""
-    found, ranks, places, programs = [], set(), set(), set()
+    """Writes what the runs of another folder have where the kept ones have a figure, too, in place of what is
+    written of the same studies."""
+    found, titles, places = [], set(), set()
     folders = study_folders(results)
     if not folders:
         sys.exit(f"{results}: holds no study. Name the folder that mpm_study has written.")
     for folder in folders:
         study, repeated = read_study(FOLDER / folder.name), read_study(folder)
-        programs.add(program_of(repeated.record))
+        titles.add(study.title)
         places.add(AGAIN if program_of(repeated.record) == program_of(study.record) else NEWER)
         first = ended_by_settings(study)
         for settings, run in ended_by_settings(repeated).items():
             if settings not in first:
                 sys.exit(f"{folder}: {study_facts.name_of(repeated, run)} is not among the runs of "
                          f"{FOLDER / folder.name}: another variant (--quick)?")
-            figures = {}
-            for name in [f"value_{measure['name']}" for measure in study_facts.numbers(study)]:
-                if (pair := [first[settings][name], run[name]]) != [None, None]:
-                    figures[name.removeprefix("value_")] = pair
-            found.append({"study": study.title, "run": study_facts.name_of(repeated, run), "figures": figures})
-            ranks.add(run["settings"].get("ranks", "1"))
+            figures, bars = {}, {}
+            for name in (measure["name"] for measure in study_facts.numbers(study)):
+                if (pair := [first[settings][f"value_{name}"], run[f"value_{name}"]]) != [None, None]:
+                    figures[name] = pair
+                if run.get(f"bar_{name}") is not None:
+                    bars[name] = run[f"bar_{name}"]
+            found.append({"study": study.title, "run": study_facts.name_of(repeated, run),
+                          "program": program_of(repeated.record), "processor": processor_of(repeated.record),
+                          "ranks": run["settings"].get("ranks", "1"), "figures": figures, "bars": bars})
     if len(places) > 1:
         sys.exit(f"{results}: some studies are by the program that the page is by and some by another one")
-    record = {"machine": repeated.record["machine"], "programs": sorted(programs), "ranks": sorted(ranks),
-              "runs": found}
-    places.pop().write_text(json.dumps(record, indent=1) + "\n")
+    place = places.pop()
+    kept = runs_of(place) if place.exists() else []
+    place.write_text(json.dumps([run for run in kept if run["study"] not in titles] + found, indent=1) + "\n")
+
+
+def runs_of(place):
+    return json.loads(place.read_text())
 
 
 def program_of(record):
@@ -266,13 +274,15 @@ def processor_of(record):
 def made_again(place):
     """What was made again where, and how far each figure moved over all of these runs: what may stand in braces,
     by names that begin with that of the file."""
-    record = json.loads(place.read_text())
-    named = ", ".join(f"*{title}*" for title in dict.fromkeys(run["study"] for run in record["runs"]))
-    opening = (f"Of {named} {len(record['runs'])} runs were made again by {' and '.join(record['programs'])}, on "
-               f"{' and '.join(record['ranks'])} rank{'s' * (record['ranks'] != ['1'])} of an "
-               f"{processor_of(record)}.")
+    found = runs_of(place)
+    named = ", ".join(f"*{title}*" for title in dict.fromkeys(run["study"] for run in found))
+    programs, ranks, processors = (" and ".join(dict.fromkeys(run[what] for run in found))
+                                   for what in ("program", "ranks", "processor"))
+    article = "an" if processors[0] in "AEIO" else "a"
+    opening = (f"Of {named} {len(found)} runs were made again by {programs}, on {ranks} rank{'s' * (ranks != '1')} of "
+               f"{article} {processors}.")
     moved, alone = {}, collections.Counter()
-    for run in record["runs"]:
+    for run in found:
         for name, pair in run["figures"].items():
             if None in pair:
                 alone[name] += 1
@@ -280,27 +290,26 @@ def made_again(place):
             way = pair[1] / pair[0] - 1
             moved.setdefault(name, []).append((abs(way), way, f"{run['study']}: {run['run']}"))
     lines = []
-    for name, found in moved.items():
-        sizes = [size for size, *_ in found]
-        _, most, where = max(found)
+    for name, ways in moved.items():
+        sizes = [size for size, *_ in ways]
+        _, most, where = max(ways)
         lines.append([name.replace("_", " "), str(len(sizes)), f"{100 * statistics.median(sizes):.2g} %",
                       f"{sum(size > 0.01 for size in sizes)}", f"{100 * most:+.2g} %", where, str(alone[name])])
     heads = ["figure", "runs", "half moved by less than", "by more than 1 %", "most", "which", "found in one alone"]
-    return {f"{place.stem}_opening": opening, f"{place.stem}_runs": str(len(record["runs"])),
+    return {f"{place.stem}_opening": opening, f"{place.stem}_runs": str(len(found)),
             place.stem: table(heads, lines)}
 
 
 def changed_verdicts():
-    """Of Table 1's properties, by the newer program."""
-    runs_again = {(run["study"], run["run"]): run["figures"] for run in json.loads(NEWER.read_text())["runs"]}
+    """Of Table 1's properties, by the newer program, its numerical errors and finer cells where they were made
+    again, too."""
+    made = {(run["study"], run["run"]): run["figures"] for run in runs_of(NEWER)}
     lines, count = [], 0
-    for one in table_1():
+    for one, later in zip(table_1(), table_1(newer_study), strict=True):
         name, label = TABLE_1[one.wood]
-        figures = runs_again.get((read_study(FOLDER / name).title, label), {})
-        if one.measure["name"] not in figures:
+        if one.measure["name"] not in made.get((read_study(FOLDER / name).title, label), {}):
             continue
         count += 1
-        later = one.repeated(*figures[one.measure["name"]])
         if later.verdict() != one.verdict():
             lines.append([one.wood, study_facts.title(one.measure), one.shown(one.best()[0]),
                           one.shown(later.best()[0]), one.shown(one.known), one.verdict(), later.verdict()])
@@ -335,11 +344,6 @@ class Property(typing.NamedTuple):
     def best(self):
         """What the drawing has as far as is known, and the numerical error of it."""
         return (self.found, self.error) if self.finer is None else (self.finer, self.finer_error)
-
-    def repeated(self, first, newer):
-        """By a program that finds the newer figure where the first was: on finer cells, by as much another one."""
-        finer = None if None in (self.finer, first, newer) else self.finer * newer / first
-        return self._replace(found=newer, finer=finer)
 
     def verdict(self):
         best, error = self.best()
@@ -380,14 +384,29 @@ def carried(value, ladder):
     return value * finest / as_fine, error and value * error / as_fine
 
 
+def kept_study(name):
+    return read_study(FOLDER / name)
+
+
+def newer_study(name):
+    """The kept one, with what the newer program has found where it has made runs again."""
+    study = kept_study(name)
+    made = {(run["study"], run["run"]): run for run in runs_of(NEWER)}
+    for run in study.record["runs"]:
+        again = made.get((study.title, study_facts.name_of(study, run)), {})
+        run |= {f"value_{figure}": later for figure, (_, later) in again.get("figures", {}).items()}
+        run |= {f"bar_{figure}": bar for figure, bar in again.get("bars", {}).items()}
+    return study
+
+
 @functools.cache
-def table_1():
+def table_1(study_of=kept_study):
     """The properties, in the order of TABLE_1."""
     found = []
-    ladders, finer_ladders = ([read_study(FOLDER / name) for name in names] for names in (LADDERS, FINER_LADDERS))
-    drawn = read_study(FOLDER / "wood_specimens")
+    ladders, finer_ladders = ([study_of(name) for name in names] for names in (LADDERS, FINER_LADDERS))
+    drawn = study_of("wood_specimens")
     for wood, (name, label) in TABLE_1.items():
-        study = read_study(FOLDER / name)
+        study = study_of(name)
         run = one_of([run for run in study.record["runs"] if study_facts.name_of(study, run) == label], wood)
         pieces = [piece for piece in drawn.record["runs"] if wood == f"loblolly, {piece['label'].split(', ')[0]}"]
         for measure in study_facts.numbers(study):

@@ -4,11 +4,14 @@ import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy
 
 import load_paths
 import wood_study_page as page
+
+from mpm_par.report import study_facts
 
 MEASURE = {"name": "modulus"}
 
@@ -33,31 +36,52 @@ class At(dict):
 
 
 class MadeAgain(unittest.TestCase):
-    MACHINE = {"processor": "Abacus(R) Processor"}
+    RUN = {"program": "abcdef0", "processor": "Abacus", "ranks": "1"}
 
     def test_says_how_far_figures_moved_and_what_one_alone_found(self):
-        runs = [{"study": "Oak", "run": f"{k} m/s", "figures": {"modulus": [100.0, repeated], "toe": toe}}
+        runs = [self.RUN | {"study": "Oak", "run": f"{k} m/s", "figures": {"modulus": [100.0, repeated], "toe": toe}}
                 for k, (repeated, toe) in enumerate([(100.5, [None, 1.0]), (97.0, [2.0, None]), (102.0, [4.0, 4.0])])]
+        runs[-1]["program"] = "abcdef1"
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder) / "newer.json"
-            place.write_text(json.dumps({"machine": self.MACHINE, "programs": ["abcdef0"], "ranks": ["1"],
-                                         "runs": runs}))
+            place.write_text(json.dumps(runs))
             found = page.made_again(place)
         self.assertEqual(found["newer_opening"],
-                         "Of *Oak* 3 runs were made again by abcdef0, on 1 rank of an Abacus.")
+                         "Of *Oak* 3 runs were made again by abcdef0 and abcdef1, on 1 rank of an Abacus.")
         self.assertEqual(found["newer_runs"], "3")
         *_, modulus, toe = found["newer"].splitlines()
         self.assertEqual(modulus, "| modulus | 3 | 2 % | 2 | -3 % | Oak: 1 m/s | 0 |")
         self.assertEqual(toe, "| toe | 1 | 0 % | 0 | +0 % | Oak: 2 m/s | 2 |")
 
+    def newer_properties(self, *runs):
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder) / "newer.json"
+            place.write_text(json.dumps([self.RUN | run for run in runs]))
+            with mock.patch.object(page, "NEWER", place):
+                return page.table_1.__wrapped__(page.newer_study)
+
     def test_a_figure_that_moved_moves_what_finer_cells_make_of_it(self):
-        one = page.Property("oak", MEASURE, 110.0, 5.0, 119.0, 5.0, None, 100.0)
-        self.assertEqual((one.verdict(), one.repeated(110.0, 112.0).verdict()), ("agrees", "differs"))
-        self.assertAlmostEqual(one.repeated(110.0, 121.0).finer, 130.9)
-        self.assertEqual(one.repeated(110.0, None).verdict(), "not found")
-        coarse = one._replace(finer=None)
-        self.assertEqual((coarse.repeated(110.0, 121.0).verdict(), coarse.repeated(None, 90.0).verdict()),
-                         ("differs", "agrees"))
+        kept = page.table_1()
+        title = page.kept_study("wood_poplar").title
+        moved = self.newer_properties({"study": title, "run": "radial", "bars": {},
+                                       "figures": {"buckling_stress": [None, 150e6]}})
+        for one, later in zip(kept, moved, strict=True):
+            if (one.wood, one.measure["name"]) != ("poplar, radial", "buckling_stress"):
+                self.assertEqual(later, one)
+                continue
+            self.assertAlmostEqual(later.found, 150e6)
+            self.assertAlmostEqual(later.finer / later.found, one.finer / one.found)
+            self.assertEqual((one.verdict(), later.verdict()), ("agrees", "differs"))
+
+    def test_a_ladder_that_moved_moves_the_numerical_error(self):
+        ladder = page.kept_study("wood_error_bars")
+        of = ("poplar, radial", "densification_stress")
+        kept, = [one for one in page.table_1() if (one.wood, one.measure["name"]) == of]
+        runs = [{"study": ladder.title, "run": study_facts.name_of(ladder, run), "bars": {of[1]: 1e6},
+                 "figures": {}} for run in ladder.record["runs"] if run["label"] == "poplar, radial"]
+        moved, = [one for one in self.newer_properties(*runs) if (one.wood, one.measure["name"]) == of]
+        self.assertEqual((moved.found, moved.error), (kept.found, 1e6))
+        self.assertNotEqual(kept.error, moved.error)
 
 
 class FinerCells(unittest.TestCase):
