@@ -32,30 +32,27 @@ template <int Dim>
 struct Shares {
   static constexpr std::size_t corners = 1 << Dim;
   double of[corners];
-  std::array<std::size_t, corners> corner;
 
   /// `direction`: of the normal, over the slope of the whole cell.
-  Shares(const OverlapSlopes<Dim>& slopes, const Vec<Dim>& direction) : corner(slopes.corner)
+  Shares(const CornerPlaces<Dim>& slopes, const Vec<Dim>& direction)
   {
     for (std::size_t c = 0; c < corners; ++c) {
-      of[c] = slopes.by[c][0] * direction[0];
-      for (int d = 1; d < Dim; ++d) of[c] += slopes.by[c][d] * direction[d];
+      of[c] = slopes[c][0] * direction[0];
+      for (int d = 1; d < Dim; ++d) of[c] += slopes[c][d] * direction[d];
     }
   }
   double velocity(const double* motion, int axis) const
   {
     double sum = 0;
     for (std::size_t c = 0; c < corners; ++c)
-      sum += of[c] * motion[corner[c] * values_per_corner<Dim> + std::size_t(axis)];
+      sum += of[c] * motion[c * values_per_corner<Dim> + std::size_t(axis)];
     return sum;
   }
-  /// Corners that a triangle names twice have both shares.
   double mobility(const double* motion) const
   {
-    double at[corners] = {}, sum = 0;
-    for (std::size_t c = 0; c < corners; ++c) at[corner[c]] += of[c];
-    for (std::size_t k = 0; k < corners; ++k)
-      sum += at[k] * at[k] * motion[k * values_per_corner<Dim> + Dim];
+    double sum = 0;
+    for (std::size_t c = 0; c < corners; ++c)
+      sum += of[c] * of[c] * motion[c * values_per_corner<Dim> + Dim];
     return sum;
   }
 };
@@ -126,13 +123,19 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double dt,
                                        std::span<double> friction)
 {
   take_motion(fields);
+  const auto slopes_of = [&](std::size_t entry, int side) {
+    std::array<double, Overlaps::values> slopes{};
+    found_.add_slopes(entry, side, 1, slopes.data());
+    return Overlaps::by_corners(slopes.data());
+  };
   constexpr std::size_t width = corners_of_cell * values_per_corner<Dim>;
   for_each_overlap([&](std::size_t entry, const Pressing& pair) {
     const auto [a, b] = pair.cells;
     const double coefficient = bodies_.friction(of_body_[std::size_t(a)], of_body_[std::size_t(b)]);
     if (coefficient == 0) return;
-    const OverlapSlopes<Dim> of_one = found_.slopes(entry, 0), of_other = found_.slopes(entry, 1);
-    const Vec<Dim> slope = of_one.together();
+    const CornerPlaces<Dim> of_one = slopes_of(entry, 0), of_other = slopes_of(entry, 1);
+    Vec<Dim> slope = Vec<Dim>::Zero();
+    for (const Vec<Dim>& of_corner : of_one) slope += of_corner;
     const double face = length_of(slope);
     if (!(face > 0)) return;
     const Vec<Dim> normal = slope / face;
@@ -152,13 +155,13 @@ void OverlapContact<Dim>::add_friction(const NodeFields<Dim>& fields, double dt,
     const double most = coefficient * pair.pressure * face;
     const Vec<Dim - 1> push =
         -std::min(most, stopped_at_once<Dim> * speed / (mobility * dt)) * (slip / speed);
-    const auto add = [&](LocalIndex cell, OverlapSlopes<Dim> slopes, double sign) {
+    const auto add = [&](LocalIndex cell, CornerPlaces<Dim> slopes, double sign) {
       if (cell >= cells()) return;
       if constexpr (Dim == 2)
-        if (const CellOutline* outline = outline_of(cell)) slopes.take_nodes(*outline);
+        if (const CellOutline* outline = outline_of(cell)) outline->give_nodes(slopes);
       const Shares<Dim> shares(slopes, sign * direction);
       for (std::size_t c = 0; c < corners_of_cell; ++c) {
-        const auto node = std::size_t(cells_[std::size_t(cell)].nodes[shares.corner[c]]);
+        const auto node = std::size_t(cells_[std::size_t(cell)].nodes[c]);
         for (int t = 0; t < Dim - 1; ++t) {
           const double along = sign * push[t] * shares.of[c];
           for (int d = 0; d < Dim; ++d)

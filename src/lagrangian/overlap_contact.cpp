@@ -153,10 +153,9 @@ void OverlapContact<Dim>::measure(const MeshNodes<Dim>& nodes)
   list_touched();
   list_touches();
   energy_ = 0;
-  const std::vector<LocalIndex>& first = first_touch_;
-  for (std::size_t c = 0; c < cells_.size(); ++c)
-    if (first[c] < first[c + 1])
-      answer_overlaps(c, {&touches_[std::size_t(first[c])], std::size_t(first[c + 1] - first[c])});
+  for (LocalIndex c = 0; c < cells(); ++c)
+    if (const std::span<const Touch> touches = touches_of(c); !touches.empty())
+      answer_overlaps(std::size_t(c), touches);
   trade_answers();
   work_then_.clear();
 }
@@ -266,25 +265,26 @@ void OverlapContact<Dim>::answer_overlaps(std::size_t cell, std::span<const Touc
 template <int Dim>
 void OverlapContact<Dim>::add_forces(NodeFields<Dim>& fields) const
 {
-  const auto push = [&](LocalIndex cell, OverlapSlopes<Dim> slopes, double pressure) {
+  for (LocalIndex cell = 0; cell < cells(); ++cell) {
+    const std::span<const Touch> touches = touches_of(cell);
+    if (touches.empty()) continue;
+    // By what describes the cell: its nodes are pushed once, whatever touches it.
+    std::array<double, Overlaps::values> sum{};
+    Overlaps::add_volume_slopes(values_of(cell), swelling_[std::size_t(cell)], sum.data());
+    for (const Touch& touch : touches) {
+      const Pressing& pair = pressing_[std::size_t(touch.pressing / 2)];
+      for (auto entry = std::size_t(pair.first); entry < std::size_t(pair.end); ++entry)
+        if (found_.overlap(entry) > 0)
+          found_.add_slopes(entry, touch.pressing % 2, -pair.pressure, sum.data());
+    }
+    CornerPlaces<Dim> push = Overlaps::by_corners(sum.data());
     if constexpr (Dim == 2)
-      if (const CellOutline* outline = outline_of(cell)) slopes.take_nodes(*outline);
+      if (const CellOutline* outline = outline_of(cell)) outline->give_nodes(push);
     const auto& nodes = cells_[std::size_t(cell)].nodes;
     for (std::size_t c = 0; c < corners_of_cell; ++c) {
-      double* force = fields.force_of(nodes[slopes.corner[c]]);
-      for (int d = 0; d < Dim; ++d) force[d] += pressure * slopes.by[c][d];
+      double* force = fields.force_of(nodes[c]);
+      for (int d = 0; d < Dim; ++d) force[d] += push[c][d];
     }
-  };
-  for_each_overlap([&](std::size_t entry, const Pressing& pair) {
-    for (const int side : {0, 1}) {
-      const LocalIndex cell = pair.cells[std::size_t(side)];
-      if (cell < cells()) push(cell, found_.slopes(entry, side), -pair.pressure);
-    }
-  });
-  for (LocalIndex cell = 0; cell < cells(); ++cell) {
-    const auto c = std::size_t(cell);
-    if (first_touch_[c] < first_touch_[c + 1])
-      push(cell, Overlaps::volume_slopes(values_of(cell)), swelling_[c]);
   }
 }
 
@@ -367,10 +367,9 @@ template <int Dim>
 double OverlapContact<Dim>::deepest_overlap() const
 {
   double deepest = 0;
-  for (std::size_t c = 0; c + 1 < first_touch_.size(); ++c) {
-    const std::span touches(touches_.begin() + first_touch_[c],
-                            touches_.begin() + first_touch_[c + 1]);
-    const double volume = Overlaps::volume(values_of(LocalIndex(c)));
+  for (LocalIndex c = 0; c + 1 < LocalIndex(first_touch_.size()); ++c) {
+    const std::span<const Touch> touches = touches_of(c);
+    const double volume = Overlaps::volume(values_of(c));
     for (const Touch& one : touches) {
       double together = 0;
       for (const Touch& other : touches)

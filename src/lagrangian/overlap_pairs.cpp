@@ -68,6 +68,7 @@ void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
   found_.find({});
   pressing_.clear();
   touches_.clear();
+  first_touch_.assign(own + 1, 0);
   touched_.clear();
   touched_at_.assign(pairs_.size(), -1);
   close_.clear();

@@ -82,14 +82,20 @@ constexpr std::array<std::array<std::size_t, 4>, 9> pieces{{{0, 1, 2, 3},
 
 }  // namespace
 
-OverlapSlopes<2> CellOverlaps<2>::volume_slopes(const double* of)
+void CellOverlaps<2>::add_volume_slopes(const double* of, double factor, double* sum)
 {
-  OverlapSlopes<2> slopes{.by = {}, .corner = {0, 1, 2, 3}};
   for (std::size_t k = 0; k < 4; ++k) {
     const std::size_t next = (k + 1) % 4, last = (k + 3) % 4;
-    slopes.by[k] = {0.5 * (of[next + 4] - of[last + 4]), 0.5 * (of[last] - of[next])};
+    sum[k] += factor * 0.5 * (of[next + 4] - of[last + 4]);
+    sum[k + 4] += factor * 0.5 * (of[last] - of[next]);
   }
-  return slopes;
+}
+
+CornerPlaces<2> CellOverlaps<2>::by_corners(const double* sum)
+{
+  CornerPlaces<2> by;
+  for (std::size_t k = 0; k < 4; ++k) by[k] = {sum[k], sum[k + 4]};
+  return by;
 }
 
 /// Outwards of a side, which is not more than to the cell itself where that is convex.
@@ -177,7 +183,9 @@ void CellOverlaps<2>::find(std::span<const MeetingCells> cells)
 {
   list_near(cells);
   const std::size_t groups = (near_.size() + lane_count - 1) / lane_count;
-  overlaps_.resize(groups * values_per_group);
+  areas_.resize(groups * lane_count);
+  faces_.resize(groups * lane_count);
+  slopes_.resize(2 * groups * lane_count * values);
   for (std::size_t g = 0; g < groups; ++g) {
     const Near* near[lane_count];
     bool are_whole = true;
@@ -191,28 +199,35 @@ void CellOverlaps<2>::find(std::span<const MeetingCells> cells)
     else
       put_pieces(near, one, other);
     const Overlap overlap = overlap_of(one, other);
-    double* out = &overlaps_[g * values_per_group];
-    store(overlap.area, out);
-    for (int k = 0; k < 4; ++k) {
-      store(overlap.a_x[k], out + (1 + k) * lane_count);
-      store(overlap.a_y[k], out + (5 + k) * lane_count);
-      store(overlap.b_x[k], out + (9 + k) * lane_count);
-      store(overlap.b_y[k], out + (13 + k) * lane_count);
-    }
+    const auto put = [&](const Lanes(&of)[4], std::size_t place) {
+      to_rows(of[0], of[1], of[2], of[3], &slopes_[2 * g * lane_count * values + place],
+              2 * values);
+    };
+    store(overlap.area, &areas_[g * lane_count]);
+    put(overlap.a_x, 0);
+    put(overlap.a_y, 4);
+    put(overlap.b_x, values);
+    put(overlap.b_y, values + 4);
     const Lanes x = overlap.a_x[0] + overlap.a_x[1] + overlap.a_x[2] + overlap.a_x[3],
                 y = overlap.a_y[0] + overlap.a_y[1] + overlap.a_y[2] + overlap.a_y[3];
-    store(stdx::sqrt(x * x + y * y), out + 17 * lane_count);
+    store(stdx::sqrt(x * x + y * y), &faces_[g * lane_count]);
+    if (!are_whole) [[unlikely]]
+      for (std::size_t entry = g * lane_count; entry < std::min((g + 1) * lane_count, size());
+           ++entry)
+        give_corners(entry);
   }
 }
 
-OverlapSlopes<2> CellOverlaps<2>::slopes(std::size_t entry, int side) const
+/// To the corners of whole cells what those of triangles have, which name a corner twice.
+void CellOverlaps<2>::give_corners(std::size_t entry)
 {
-  const double* derivative = values_of(entry) + (1 + 8 * side) * lane_count;
-  OverlapSlopes<2> slopes;
-  for (std::size_t c = 0; c < 4; ++c)
-    slopes.by[c] = {derivative[c * lane_count], derivative[(c + 4) * lane_count]};
-  slopes.corner = pieces[std::size_t(near_[entry].pieces[std::size_t(side)])];
-  return slopes;
+  for (const std::size_t side : {0, 1}) {
+    double* slopes = &slopes_[(2 * entry + side) * values];
+    const auto& corners = pieces[std::size_t(near_[entry].pieces[side])];
+    std::array<double, values> sum{};
+    for (std::size_t k = 0; k < values; ++k) sum[(k < 4 ? 0 : 4) + corners[k % 4]] += slopes[k];
+    std::ranges::copy(sum, slopes);
+  }
 }
 
 }  // namespace mpm

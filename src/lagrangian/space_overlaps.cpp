@@ -22,20 +22,6 @@ Parallelepiped brick_at(const double* values)
   return {Eigen::Map<const Vec<3>>(values), Eigen::Map<const Eigen::Matrix3d>(values + 3)};
 }
 
-OverlapSlopes<3> by_corners(const BrickOverlap::Slopes& of_cell)
-{
-  OverlapSlopes<3> slopes{.by = {of_cell.by_centre / 8}, .corner = CellOverlaps<3>::order};
-  // From one corner to two, four and eight.
-  for (std::size_t k = 0, known = 1; k < 3; ++k, known *= 2) {
-    const Vec<3> half = 0.25 * of_cell.by_edges.col(Eigen::Index(k));
-    for (std::size_t c = 0; c < known; ++c) {
-      slopes.by[c + known] = slopes.by[c] + half;
-      slopes.by[c] -= half;
-    }
-  }
-  return slopes;
-}
-
 }  // namespace
 
 /// Mean of the corners, and means of the edges along each axis.
@@ -76,13 +62,26 @@ double CellOverlaps<3>::volume(const double* values)
   return brick_at(values).edges.determinant();
 }
 
-OverlapSlopes<3> CellOverlaps<3>::volume_slopes(const double* values)
+void CellOverlaps<3>::add_volume_slopes(const double* values, double factor, double* sum)
 {
   const Eigen::Matrix3d edges = brick_at(values).edges;
-  BrickOverlap::Slopes slopes;
+  Eigen::Map<Eigen::Matrix3d> by_edges(sum + 3);
   for (int k = 0; k < 3; ++k)
-    slopes.by_edges.col(k) = edges.col((k + 1) % 3).cross(edges.col((k + 2) % 3));
-  return by_corners(slopes);
+    by_edges.col(k) += factor * edges.col((k + 1) % 3).cross(edges.col((k + 2) % 3));
+}
+
+CornerPlaces<3> CellOverlaps<3>::by_corners(const double* sum)
+{
+  CornerPlaces<3> by{Eigen::Map<const Vec<3>>(sum) / 8};
+  // From one corner to two, four and eight.
+  for (std::size_t k = 0, known = 1; k < 3; ++k, known *= 2) {
+    const Vec<3> half = 0.25 * Eigen::Map<const Vec<3>>(sum + 3 * (k + 1));
+    for (std::size_t c = 0; c < known; ++c) {
+      by[c + known] = by[c] + half;
+      by[c] -= half;
+    }
+  }
+  return by;
 }
 
 bool CellOverlaps<3>::closes_on(const double* a, const double* b, const IndexVec<3>& apart,
@@ -112,10 +111,12 @@ void CellOverlaps<3>::find(std::span<const MeetingCells> cells)
   }
 }
 
-OverlapSlopes<3> CellOverlaps<3>::slopes(std::size_t entry, int side) const
+void CellOverlaps<3>::add_slopes(std::size_t entry, int side, double factor, double* sum) const
 {
   const BrickOverlap& overlap = near_[entry].overlap;
-  return by_corners(side == 0 ? overlap.a : overlap.b);
+  const BrickOverlap::Slopes& of = side == 0 ? overlap.a : overlap.b;
+  Eigen::Map<Vec<3>>(sum) += factor * of.by_centre;
+  Eigen::Map<Eigen::Matrix3d>(sum + 3) += factor * of.by_edges;
 }
 
 }  // namespace mpm

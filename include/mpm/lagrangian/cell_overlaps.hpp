@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -44,31 +43,6 @@ bool is_shared(const IndexVec<Dim>& up, const IndexVec<Dim>& apart)
 
 template <int Dim>
 using CornerPlaces = std::array<Vec<Dim>, std::size_t(1 << Dim)>;
-
-/// Derivatives of an overlap by corners of a cell, and which these are: a triangle names one twice.
-template <int Dim>
-struct OverlapSlopes {
-  CornerPlaces<Dim> by;  ///< m, in space m^2
-  std::array<std::size_t, std::size_t(1 << Dim)> corner;
-
-  /// By the place of the whole cell.
-  Vec<Dim> together() const
-  {
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    for (const Vec<Dim>& slope : by) sum += slope;
-    return sum;
-  }
-  /// By the nodes of a cell that has an outline, in the plane.
-  void take_nodes(const CellOutline& outline)
-  {
-    CornerPlaces<Dim> of_corners;
-    of_corners.fill(Vec<Dim>::Zero());
-    for (std::size_t c = 0; c < corner.size(); ++c) of_corners[corner[c]] += by[c];
-    outline.give_nodes(of_corners);
-    by = of_corners;
-    std::iota(corner.begin(), corner.end(), std::size_t(0));
-  }
-};
 
 /// Two cells that may lie upon each other: a number, and what CellOverlaps::describe says of
 /// either.
@@ -114,7 +88,10 @@ class CellOverlaps<2> {
   {
     return 0.5 * ((of[2] - of[0]) * (of[7] - of[5]) - (of[3] - of[1]) * (of[6] - of[4]));
   }
-  static OverlapSlopes<2> volume_slopes(const double* of);
+  /// Adds `factor` times the derivatives of the volume by what describes a cell.
+  static void add_volume_slopes(const double* of, double factor, double* sum);
+  /// Of such a sum of derivatives, by the corners.
+  static CornerPlaces<2> by_corners(const double* sum);
   /// Of neighbours around a node, b lies `apart` from a in the lattice: whether another corner of a
   /// than the one there is nearer than `distance`, m, to b.
   static bool closes_on(const double* a, const double* b, const IndexVec<2>& apart,
@@ -125,14 +102,20 @@ class CellOverlaps<2> {
   void find(std::span<const MeetingCells> cells);
   std::size_t size() const { return near_.size(); }
   std::size_t pair(std::size_t entry) const { return near_[entry].cells.pair; }
-  double overlap(std::size_t entry) const { return *values_of(entry); }  ///< m^2
+  double overlap(std::size_t entry) const { return areas_[entry]; }  ///< m^2
   /// By the way of a cell, m: the length of the face that they share.
-  double face(std::size_t entry) const { return values_of(entry)[17 * lane_count]; }
-  /// `side`: 0, of the first cell, or 1.
-  OverlapSlopes<2> slopes(std::size_t entry, int side) const;
+  double face(std::size_t entry) const { return faces_[entry]; }
+  /// Adds `factor` times the overlap's derivatives by what describes the first cell, `side` 0, or
+  /// the other one, 1.
+  void add_slopes(std::size_t entry, int side, double factor, double* sum) const
+  {
+    const double* of = &slopes_[(2 * entry + std::size_t(side)) * values];
+    for (int k = 0; k < values; ++k) sum[k] += factor * of[k];
+  }
   std::size_t bytes() const
   {
-    return near_.capacity() * sizeof(Near) + overlaps_.capacity() * sizeof(double);
+    return near_.capacity() * sizeof(Near) +
+           (areas_.capacity() + faces_.capacity() + slopes_.capacity()) * sizeof(double);
   }
 
  private:
@@ -141,17 +124,14 @@ class CellOverlaps<2> {
     MeetingCells cells;
     std::array<int, 2> pieces;
   };
-  /// Of lane_count entries: areas, their derivatives by 16 coordinates, and faces.
-  static constexpr int values_per_group = 18 * lane_count;
-  const double* values_of(std::size_t entry) const
-  {
-    return &overlaps_[entry / lane_count * values_per_group + entry % lane_count];
-  }
   void list_near(std::span<const MeetingCells> cells);
   static void put_pieces(const Near* const (&near)[lane_count], Quads& one, Quads& other);
+  void give_corners(std::size_t entry);
 
   std::vector<Near> near_;
-  LaneVector<double> overlaps_;
+  /// Of the entries, and of some behind them that fill lanes.
+  LaneVector<double> areas_, faces_;
+  LaneVector<double> slopes_;  ///< [2 * n * values], of the first cell of each entry and the other
 };
 
 template <>
@@ -166,7 +146,8 @@ class CellOverlaps<3> {
   static void shift(const Vec<3>& way, double* values);
   static CellBox<3> box_of(const double* values);
   static double volume(const double* values);  ///< m^3
-  static OverlapSlopes<3> volume_slopes(const double* values);
+  static void add_volume_slopes(const double* values, double factor, double* sum);
+  static CornerPlaces<3> by_corners(const double* sum);
   /// Of neighbours around a node or an edge, as in the plane.
   static bool closes_on(const double* a, const double* b, const IndexVec<3>& apart,
                         double distance);
@@ -177,7 +158,7 @@ class CellOverlaps<3> {
   std::size_t pair(std::size_t entry) const { return near_[entry].pair; }
   double overlap(std::size_t entry) const { return near_[entry].overlap.volume; }           ///< m^3
   double face(std::size_t entry) const { return near_[entry].overlap.a.by_centre.norm(); }  ///< m^2
-  OverlapSlopes<3> slopes(std::size_t entry, int side) const;
+  void add_slopes(std::size_t entry, int side, double factor, double* sum) const;
   std::size_t bytes() const { return near_.capacity() * sizeof(Near); }
 
  private:

@@ -188,6 +188,12 @@ class OverlapContact final : public SelfContact<Dim> {
     double answer;  ///< derivative of the energy by the share, over S_c V0
     double change;  ///< by how much its neighbours' answers grow with its share
   };
+  /// Of a cell of this rank, after measure().
+  std::span<const Touch> touches_of(LocalIndex cell) const
+  {
+    const auto c = std::size_t(cell);
+    return {touches_.data() + first_touch_[c], touches_.data() + first_touch_[c + 1]};
+  }
   bool is_rigid(LocalIndex cell) const { return stiffness_[std::size_t(cell)] == 0; }
   void answer_overlaps(std::size_t cell, std::span<const Touch> touches);
   void trade_answers();
