@@ -18,6 +18,16 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+template <int Dim>
+CellBox<Dim> widened(CellBox<Dim> box, double room)
+{
+  for (std::size_t d = 0; d < Dim; ++d) {
+    box[d] -= room;
+    box[Dim + d] += room;
+  }
+  return box;
+}
+
 }  // namespace
 
 /// Bodies that are apart can anywhere. Neighbours with a face in common cannot, nor those around a
@@ -37,10 +47,10 @@ bool OverlapContact<Dim>::can_meet(LocalIndex own, LocalIndex other) const
 }
 
 template <int Dim>
-void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
+void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, std::vector<double> rooms)
 {
   if (work_then_.empty()) work_then_ = counted_work();
-  skin_ = skin;
+  rooms_then_ = std::move(rooms);
   places_then_.clear();
   for (LocalIndex node = 0; node < nodes.size(); ++node)
     places_then_.push_back(nodes.position(node));
@@ -59,9 +69,14 @@ void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
   }
   take_places(nodes);
   find_boxes();
-  std::vector<Ghosts::Peer> peers = add_candidates(skin);
+  std::vector<double> of_cells;  // then of ghosts
+  for (const Cell& cell : cells_) {
+    double& room = of_cells.emplace_back(0);
+    for (const LocalIndex node : cell.nodes) room = std::max(room, rooms_then_[std::size_t(node)]);
+  }
+  std::vector<Ghosts::Peer> peers = add_candidates(of_cells);
   find_boxes();
-  list_pairs(skin);
+  list_pairs(of_cells);
   keep_needed(std::move(peers));
   // Nothing is known of these pairs.
   near_.clear();
@@ -76,20 +91,22 @@ void OverlapContact<Dim>::find_pairs(const MeshNodes<Dim>& nodes, double skin)
 }
 
 template <int Dim>
-double OverlapContact<Dim>::largest_way(const MeshNodes<Dim>& nodes) const
+double OverlapContact<Dim>::beyond_rooms(const MeshNodes<Dim>& nodes,
+                                         std::span<const double> ahead) const
 {
-  double squared = 0;
+  double most = -infinity;
   for (std::size_t n = 0; n < places_then_.size(); ++n) {
     if (nodes.is_free(LocalIndex(n))) continue;
-    squared = std::max(squared, (nodes.position(LocalIndex(n)) - places_then_[n]).squaredNorm());
+    const double way = (nodes.position(LocalIndex(n)) - places_then_[n]).norm();
+    most = std::max(most, reach_ * (way + ahead[n]) - rooms_then_[n]);
   }
-  return reach_ * std::sqrt(squared);
+  return most;
 }
 
-/// As many periods to either side as cells are apart, `boxes` of all ranks': places are not taken
-/// back into the first period, and what slides along a periodic side goes on and on.
+/// As many periods to either side as cells are apart, `boxes` of all ranks', rooms and all: places
+/// are not taken back into the first period, and what slides along a periodic side goes on and on.
 template <int Dim>
-void OverlapContact<Dim>::count_images(std::span<const double> boxes, double skin)
+void OverlapContact<Dim>::count_images(std::span<const double> boxes)
 {
   for (int d = 0; d < Dim; ++d) {
     periods_[d] = 0;
@@ -100,7 +117,7 @@ void OverlapContact<Dim>::count_images(std::span<const double> boxes, double ski
       upper = std::max(upper, boxes[box + std::size_t(Dim + d)]);
     }
     if (lower < upper)
-      periods_[d] = LocalIndex(std::floor((upper - lower + skin) / (period_[d] * size_[d])));
+      periods_[d] = LocalIndex(std::floor((upper - lower) / (period_[d] * size_[d])));
   }
 }
 
@@ -119,20 +136,22 @@ Vec<Dim> OverlapContact<Dim>::shift_of(int image) const
 
 /// All cells that may meet some of another rank's become ghosts there.
 template <int Dim>
-std::vector<Ghosts::Peer> OverlapContact<Dim>::add_candidates(double skin)
+std::vector<Ghosts::Peer> OverlapContact<Dim>::add_candidates(std::vector<double>& rooms)
 {
   const int ranks = ranks_of(comm_), me = rank_of(comm_);
+  std::vector<Box> wide;
+  for (std::size_t c = 0; c < rooms.size(); ++c) wide.push_back(widened<Dim>(boxes_[c], rooms[c]));
   Box mine;
   for (std::size_t d = 0; d < Dim; ++d) {
     mine[d] = infinity;
     mine[Dim + d] = -infinity;
-    for (const Box& box : boxes_) {
+    for (const Box& box : wide) {
       mine[d] = std::min(mine[d], box[d]);
       mine[Dim + d] = std::max(mine[Dim + d], box[Dim + d]);
     }
   }
   const std::vector<double> others = joined_over_ranks(comm_, mine);
-  count_images(others, skin);
+  count_images(others);
   images_.assign(cells_.size(), itself());
   std::vector<std::vector<double>> out(static_cast<std::size_t>(ranks));
   std::vector<Ghosts::Peer> peers(static_cast<std::size_t>(ranks));
@@ -146,28 +165,29 @@ std::vector<Ghosts::Peer> OverlapContact<Dim>::add_candidates(double skin)
       };
       Box theirs;
       std::copy_n(&others[std::size_t(r) * theirs.size()], theirs.size(), theirs.begin());
-      if (!meet<Dim>(moved(mine), theirs, skin)) continue;
+      if (!meet<Dim>(moved(mine), theirs, 0)) continue;
       for (LocalIndex c = 0; c < cells(); ++c) {
-        if (!meet<Dim>(moved(boxes_[std::size_t(c)]), theirs, skin)) continue;
+        if (!meet<Dim>(moved(wide[std::size_t(c)]), theirs, 0)) continue;
         peers[std::size_t(r)].sent.push_back({c, image});
         std::vector<double>& list = out[std::size_t(r)];
         const Cell& cell = cells_[std::size_t(c)];
         list.insert(list.end(), cell.location.begin(), cell.location.end());
-        list.insert(list.end(),
-                    {cell.stiffness, double(cell.open.bits()), double(cell.body), double(image)});
+        list.insert(list.end(), {cell.stiffness, double(cell.open.bits()), double(cell.body),
+                                 double(image), rooms[std::size_t(c)]});
         list.insert(list.end(), values_of(c), values_of(c) + Overlaps::values);
         Overlaps::shift(shift, &*list.end() - Overlaps::values);
       }
     }
-  add_ghosts(peers, traded_over_ranks(comm_, out));
+  add_ghosts(peers, traded_over_ranks(comm_, out), rooms);
   return peers;
 }
 
 template <int Dim>
 void OverlapContact<Dim>::add_ghosts(std::vector<Ghosts::Peer>& peers,
-                                     const std::vector<std::vector<double>>& sent)
+                                     const std::vector<std::vector<double>>& sent,
+                                     std::vector<double>& rooms)
 {
-  constexpr std::size_t values = Dim + 4 + std::size_t(Overlaps::values);
+  constexpr std::size_t values = Dim + 5 + std::size_t(Overlaps::values);
   for (std::size_t r = 0; r < peers.size(); ++r) {
     const std::vector<double>& list = sent[r];
     Ghosts::Peer& peer = peers[r];
@@ -182,22 +202,23 @@ void OverlapContact<Dim>::add_ghosts(std::vector<Ghosts::Peer>& peers,
       open_.emplace_back(unsigned(of_cell[1]));
       of_body_.push_back(int(of_cell[2]));
       images_.push_back(int(of_cell[3]));
-      values_.insert(values_.end(), of_cell + 4, of_cell + 4 + Overlaps::values);
+      rooms.push_back(of_cell[4]);
+      values_.insert(values_.end(), of_cell + 5, of_cell + 5 + Overlaps::values);
     }
   }
 }
 
-/// Cells stand in the bins that their boxes reach into. From the last to the first, each meets
-/// those that came before it in its bins.
+/// Cells stand in the bins that their boxes and rooms reach into. From the last to the first, each
+/// meets those that came before it in its bins.
 template <int Dim>
-void OverlapContact<Dim>::list_pairs(double skin)
+void OverlapContact<Dim>::list_pairs(std::span<const double> rooms)
 {
   struct Entry {
     GlobalIndex bin;
     LocalIndex cell, next;
   };
   constexpr GlobalIndex bins_per_axis = GlobalIndex(1) << (62 / Dim);
-  const double width = 1.5 * size_.maxCoeff() + skin;
+  const double width = 1.5 * size_.maxCoeff() + (rooms.empty() ? 0.0 : 2 * std::ranges::min(rooms));
   const auto bin_of = [&](double place) { return LocalIndex(std::floor(place / width)); };
   const auto number_of = [](const IndexVec<Dim>& at) {
     GlobalIndex bin = 0;
@@ -210,15 +231,17 @@ void OverlapContact<Dim>::list_pairs(double skin)
     return first_entry[(std::uint64_t(bin) * 0x9e3779b97f4a7c15u >> 32) & (first_entry.size() - 1)];
   };
   std::vector<Entry> entries;
+  std::vector<Box> wide(rooms.size());
   std::vector<IndexVec<Dim>> first_bins(stiffness_.size());
   std::vector<LocalIndex> met;
   pairs_.clear();
   for (LocalIndex c = LocalIndex(stiffness_.size()); c-- > 0;) {
-    const Box& box = boxes_[std::size_t(c)];
+    const Box& box = wide[std::size_t(c)] =
+        widened<Dim>(boxes_[std::size_t(c)], rooms[std::size_t(c)]);
     IndexBox<Dim> bins;
     for (int d = 0; d < Dim; ++d) {
-      bins.lower[d] = bin_of(box[std::size_t(d)] - 0.5 * skin);
-      bins.upper[d] = bin_of(box[std::size_t(Dim + d)] + 0.5 * skin) + 1;
+      bins.lower[d] = bin_of(box[std::size_t(d)]);
+      bins.upper[d] = bin_of(box[std::size_t(Dim + d)]) + 1;
     }
     first_bins[std::size_t(c)] = bins.lower;
     met.clear();
@@ -228,7 +251,7 @@ void OverlapContact<Dim>::list_pairs(double skin)
       for (LocalIndex e = c < cells() ? slot : -1; e >= 0; e = entries[std::size_t(e)].next) {
         const Entry& entry = entries[std::size_t(e)];
         // Of the bins that both are in the first one counts.
-        if (entry.bin == bin && meet<Dim>(box, boxes_[std::size_t(entry.cell)], skin) &&
+        if (entry.bin == bin && meet<Dim>(box, wide[std::size_t(entry.cell)], 0) &&
             bins.lower.cwiseMax(first_bins[std::size_t(entry.cell)]) == at &&
             can_meet(c, entry.cell))
           met.push_back(entry.cell);
@@ -252,9 +275,10 @@ void OverlapContact<Dim>::list_pairs(double skin)
 template <int Dim>
 void OverlapContact<Dim>::keep_needed(std::vector<Ghosts::Peer> peers)
 {
-  std::vector<std::vector<LocalIndex>> pairs_of(stiffness_.size());
+  std::vector<std::vector<LocalIndex>> pairs_of(stiffness_.size() - cells_.size());  // of ghosts
   for (std::size_t k = 0; k < pairs_.size(); ++k)
-    pairs_of[std::size_t(pairs_[k].second)].push_back(LocalIndex(k));
+    if (pairs_[k].second >= cells())
+      pairs_of[std::size_t(pairs_[k].second - cells())].push_back(LocalIndex(k));
   const auto count = LocalIndex(pairs_.size());
   other_side_.assign(pairs_.size(), count);
   LocalIndex next_side = count + 1;  // behind this rank's sides and a zero
@@ -270,9 +294,10 @@ void OverlapContact<Dim>::keep_needed(std::vector<Ghosts::Peer> peers)
     const LocalIndex first = next;
     for (LocalIndex k = 0; k < peer.count; ++k) {
       const auto ghost = std::size_t(peer.first + k);
-      if (pairs_of[ghost].empty()) continue;
-      list.insert(list.end(), {double(k), double(pairs_of[ghost].size())});
-      for (const LocalIndex pair : pairs_of[ghost]) {
+      const std::vector<LocalIndex>& of_ghost = pairs_of[ghost - cells_.size()];
+      if (of_ghost.empty()) continue;
+      list.insert(list.end(), {double(k), double(of_ghost.size())});
+      for (const LocalIndex pair : of_ghost) {
         const IndexVec<Dim>& at = locations_[std::size_t(pairs_[std::size_t(pair)].first)];
         list.insert(list.end(), at.begin(), at.end());
         pairs_[std::size_t(pair)].second = next;
@@ -340,10 +365,10 @@ void OverlapContact<Dim>::answer(std::vector<Ghosts::Peer>& peers,
 }
 
 template Vec<2> OverlapContact<2>::shift_of(int) const;
-template void OverlapContact<2>::find_pairs(const MeshNodes<2>&, double);
-template double OverlapContact<2>::largest_way(const MeshNodes<2>&) const;
+template void OverlapContact<2>::find_pairs(const MeshNodes<2>&, std::vector<double>);
+template double OverlapContact<2>::beyond_rooms(const MeshNodes<2>&, std::span<const double>) const;
 template Vec<3> OverlapContact<3>::shift_of(int) const;
-template void OverlapContact<3>::find_pairs(const MeshNodes<3>&, double);
-template double OverlapContact<3>::largest_way(const MeshNodes<3>&) const;
+template void OverlapContact<3>::find_pairs(const MeshNodes<3>&, std::vector<double>);
+template double OverlapContact<3>::beyond_rooms(const MeshNodes<3>&, std::span<const double>) const;
 
 }  // namespace mpm

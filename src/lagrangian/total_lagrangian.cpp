@@ -13,9 +13,9 @@ namespace mpm {
 
 namespace {
 
-/// Way that nodes may have before pairs of cells are looked for again, in locations, at least; and
-/// in the way of the fastest node from one check to the next.
-constexpr double least_way = 0.25, checks_ahead = 4;
+/// Way that nodes may have before pairs of cells are looked for again: in locations, at least; and
+/// from one check to the next, in their own way and in that of the fastest node, which may hit any.
+constexpr double least_way = 0.25, checks_ahead = 2;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ TotalLagrangian<Dim>::TotalLagrangian(Decomposition<Dim> decomposition, Setup se
         std::max(largest_speed_, Eigen::Map<const Vec<Dim>>(fields_->updated_of(node)).norm());
   fastest_ = largest_over_ranks(decomposition_.comm(), largest_speed_);
   if (contact_) {
-    contact_->find_pairs(*nodes_, skin_of_pairs());
+    find_pairs();
     contact_->measure(*nodes_);
   }
   checked_ = -1;  // what touches at rest, or will soon, sets the first step
@@ -144,15 +144,16 @@ void TotalLagrangian<Dim>::check()
   const double particles = this->particles();
   double work = particles;  // as visit_work has it, without asking where
   if (contact_) contact_->visit_work([&](const IndexVec<Dim>&, double more) { work += more; });
-  // The largest of: speeds, work, and minus the step of the first loss; ways of nodes; what failed;
-  // particles.
-  std::array<double, 7> largest{largest_speed_,
-                                wave_speed,
-                                work,
-                                loss_ ? -double(loss_->moment.step) : never,
-                                contact_ ? contact_->largest_way(*nodes_) : 0.0,
-                                double(failed.size()),
-                                particles};
+  // The largest of: speeds, work, and minus the step of the first loss; what nodes lack of room;
+  // what failed; particles.
+  std::array<double, 7> largest{
+      largest_speed_,
+      wave_speed,
+      work,
+      loss_ ? -double(loss_->moment.step) : never,
+      contact_ ? contact_->beyond_rooms(*nodes_, ways_to_next_check()) : never,
+      double(failed.size()),
+      particles};
   const MPI_Comm comm = decomposition_.comm();
   largest_over_ranks(comm, largest);
   if (largest[3] > never)
@@ -170,9 +171,15 @@ void TotalLagrangian<Dim>::check()
   checked_ = steps_;
   if (largest[5] > 0) {
     part(failed);
-    largest[4] = 0;
+    largest[4] = never;
   }
-  if (contact_) look_for_pairs(largest[4]);
+  // Until the next check nodes go on, and that one looks as far ahead as the fastest goes until the
+  // one after it: all that may meet by then has to be listed.
+  if (contact_ && largest[4] + contact_->reach() * way_to_next_check() > 0) {
+    find_pairs();
+    contact_->measure(*nodes_);
+    contact_->forget_stiffness();
+  }
   if (setup_.mass_scaling > 0) scale_masses();
 }
 
@@ -249,24 +256,28 @@ double TotalLagrangian<Dim>::way_to_next_check() const
   return steps_between_checks * std::max(setup_.longest_step, last_step_) * fastest_;
 }
 
+/// Of every node, at its present speed.
 template <int Dim>
-double TotalLagrangian<Dim>::skin_of_pairs() const
+std::vector<double> TotalLagrangian<Dim>::ways_to_next_check() const
 {
-  return 2 * std::max(least_way * setup_.location_size.minCoeff(),
-                      checks_ahead * contact_->reach() * way_to_next_check());
+  const double time = steps_between_checks * std::max(setup_.longest_step, last_step_);
+  std::vector<double> ways;
+  for (LocalIndex node = 0; node < nodes_->size(); ++node) {
+    const double* u = &fields_->updated[std::size_t(node) * NodeFields<Dim>::record_width];
+    ways.push_back(time * Eigen::Map<const Vec<Dim>>(u).norm());
+  }
+  return ways;
 }
 
-/// Pairs stay if at the next check all will be among them that may meet before the one after it:
-/// corners go one way until then, as far again on either side while that check looks ahead, and
-/// half a way more where they get faster.
+/// Slow nodes get less room than fast ones, so that few pairs are listed for each.
 template <int Dim>
-void TotalLagrangian<Dim>::look_for_pairs(double way)
+void TotalLagrangian<Dim>::find_pairs()
 {
-  const double to_next_check = contact_->reach() * way_to_next_check();
-  if (way + 2.5 * to_next_check < 0.5 * contact_->skin()) return;
-  contact_->find_pairs(*nodes_, skin_of_pairs());
-  contact_->measure(*nodes_);
-  contact_->forget_stiffness();
+  const double least = least_way * setup_.location_size.minCoeff(),
+               ahead = checks_ahead * contact_->reach();
+  std::vector<double> rooms = ways_to_next_check();
+  for (double& room : rooms) room = std::max(least, ahead * room) + ahead * way_to_next_check();
+  contact_->find_pairs(*nodes_, std::move(rooms));
 }
 
 template <int Dim>

@@ -44,15 +44,12 @@ void TotalLagrangian<Dim>::archive(Archive& archive)
     archive.rows("friction", rows, friction_);
   }
   archive_failure(archive);
-  // As far as nodes go until the next check; a mesh at rest needs less.
-  double skin = contact_ ? contact_->skin() : 0;
-  archive.value("skin", skin);
   setup_.slots.archive(archive);
   if (!archive.is_loading()) return;
   loss_.reset();
   particles_are_present_ = false;
   if (!contact_) return;
-  contact_->find_pairs(*nodes_, skin);
+  find_pairs();
   contact_->measure(*nodes_);
   contact_->forget_stiffness();
 }

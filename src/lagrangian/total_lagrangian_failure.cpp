@@ -56,7 +56,7 @@ void TotalLagrangian<Dim>::part(std::span<const double> failed_locations)
   list_what_is_left();
   if (contact_) {
     failed_.energy += contact_->energy();
-    contact_->find_pairs(*nodes_, contact_->skin());
+    find_pairs();
     contact_->measure(*nodes_);
     contact_->forget_stiffness();
     failed_.energy -= contact_->energy();

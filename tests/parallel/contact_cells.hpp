@@ -8,7 +8,6 @@
 namespace mpm {
 
 constexpr double stiffness = 4e9;  ///< Pa, in the plane N/m
-constexpr double skin = 0.3e-3;    ///< m
 
 template <int Dim>
 Vec<Dim> size()
@@ -44,6 +43,13 @@ struct Mesh {
   MeshNodes<Dim> nodes;
   NodeFields<Dim> fields;
 };
+
+/// Of each node, m.
+template <int Dim>
+std::vector<double> rooms(const MeshNodes<Dim>& nodes)
+{
+  return std::vector<double>(std::size_t(nodes.size()), 0.15e-3);
+}
 
 template <int Dim>
 typename OverlapContact<Dim>::Cell cell_at(int number, const IndexVec<Dim>& location)

@@ -56,13 +56,21 @@ CellOutline uneven_outline()
   return *CellOutline::at(rest, ways);
 }
 
+/// Where corners stood when pairs were found. Their nodes had so much room then, over the way that
+/// they have gone since.
+template <int Dim>
+struct Start {
+  std::vector<Vec<Dim>> corners;
+  double room;
+};
+
 /// Shares the cells out among the ranks in turn, or keeps them all. Collective.
 template <int Dim>
-Found contact_of(MPI_Comm comm, const Scene<Dim>& scene)
+Found contact_of(MPI_Comm comm, const Scene<Dim>& scene, const Start<Dim>* start = nullptr)
 {
   const int me = rank_of(comm), ranks = ranks_of(comm);
   typename OverlapContact<Dim>::Cells own;
-  std::vector<Vec<Dim>> places;
+  std::vector<Vec<Dim>> places, ways;
   std::vector<int> numbers;
   for (int c = me; c < cells; c += ranks) {
     const IndexVec<3> location(2 * (c % 8), 2 * (c / 8), 0);
@@ -72,8 +80,12 @@ Found contact_of(MPI_Comm comm, const Scene<Dim>& scene)
       own.outlines.push_back(uneven_outline());
     }
     numbers.push_back(c);
-    for (int k = 0; k < corners<Dim>; ++k)
-      places.push_back(scene.corners[std::size_t(corners<Dim> * c + k)]);
+    for (int k = 0; k < corners<Dim>; ++k) {
+      const auto corner = std::size_t(corners<Dim> * c + k);
+      const Vec<Dim>& then = start ? start->corners[corner] : scene.corners[corner];
+      places.push_back(then);
+      ways.push_back(scene.corners[corner] - then);
+    }
   }
   Mesh<Dim> mesh(places);
   BodyPairs bodies(1);
@@ -84,7 +96,21 @@ Found contact_of(MPI_Comm comm, const Scene<Dim>& scene)
     EXPECT_GT(uneven, 1.1);
     EXPECT_EQ(contact.reach(), scene.outlined ? uneven : 1) << "on every rank";
   }
-  contact.find_pairs(mesh.nodes, skin);
+  std::vector<double> room = rooms(mesh.nodes);
+  if (start)
+    for (std::size_t n = 0; n < room.size(); ++n)
+      room[n] = start->room * contact.reach() * ways[n].norm();
+  contact.find_pairs(mesh.nodes, room);
+  if (start) {
+    for (std::size_t n = 0; n < ways.size(); ++n)
+      for (int d = 0; d < Dim; ++d) mesh.fields.updated_of(LocalIndex(n))[d] = ways[n][d];
+    mesh.nodes.move(mesh.fields, 1);
+    const std::vector<double> ahead(room.size(), 0.1e-3);
+    const double farthest = largest_over_ranks(
+        comm, ways.empty() ? 0 : std::ranges::max(ways, {}, &Vec<Dim>::squaredNorm).norm());
+    const double beyond = contact.beyond_rooms(mesh.nodes, ahead) / contact.reach();
+    EXPECT_NEAR(largest_over_ranks(comm, beyond), (1 - start->room) * farthest + 0.1e-3, 1e-12);
+  }
   contact.measure(mesh.nodes);
   contact.add_forces(mesh.fields);
   Found found;
@@ -203,6 +229,27 @@ TYPED_TEST(OverlapContacts, HaveForcesThatAreTheGradientOfOneEnergyAndSumToZero)
     expect_gradient(thrown<TypeParam::dim>(7, TypeParam::period(), crooked));
 }
 
+TYPED_TEST(OverlapContacts, AreFoundBeforeNodesHaveGoneAsFarAsTheirRooms)
+{
+  constexpr int dim = TypeParam::dim;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const auto scene = thrown<dim>(seed, TypeParam::period(), 0.1);
+    std::mt19937 random(seed + 100);
+    std::uniform_real_distribution<double> around(-1, 1);
+    Start<dim> start{scene.corners, 1};
+    for (int c = 0; c < cells; ++c) {
+      const double far = c % 5 == 0 ? 3e-3 : 0.2e-3;
+      const Vec<dim> way = far * Vec<dim>::NullaryExpr([&] { return around(random); });
+      for (int k = 0; k < corners<dim>; ++k)
+        start.corners[std::size_t(corners<dim> * c + k)] += way;
+    }
+    const Found alone = contact_of(MPI_COMM_SELF, scene);
+    expect_alike(contact_of(MPI_COMM_WORLD, scene, &start), alone);
+    start.room = 0.1;
+    EXPECT_LT(contact_of(MPI_COMM_WORLD, scene, &start).pairs, alone.pairs);
+  }
+}
+
 /// As if something had slid along a periodic side.
 template <int Dim>
 void expect_that_whole_periods_are_nothing()
@@ -246,7 +293,7 @@ TEST(OverlapContact, OfNeighboursIsThereWhereEitherSeesTheirCornerOpen)
     }
     Mesh<2> mesh(places);
     OverlapContact<2> contact(MPI_COMM_WORLD, own, 2, BodyPairs(1), size<2>(), {0, 0});
-    contact.find_pairs(mesh.nodes, skin);
+    contact.find_pairs(mesh.nodes, rooms(mesh.nodes));
     contact.measure(mesh.nodes);
     contact.add_forces(mesh.fields);
     std::vector<double> sums(4, 0.0);

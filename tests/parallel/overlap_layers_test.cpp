@@ -48,7 +48,7 @@ struct Layers {
     bodies.add(0, 0, 0.3);
     OverlapContact<Dim> contact(MPI_COMM_SELF, surface, 2, bodies, size<Dim>(),
                                 IndexVec<Dim>::Zero());
-    contact.find_pairs(mesh.nodes, skin);
+    contact.find_pairs(mesh.nodes, rooms(mesh.nodes));
     contact.measure(mesh.nodes);
     contact.add_forces(mesh.fields);
     for (LocalIndex n = 0; n < mesh.nodes.size(); ++n) {

@@ -46,10 +46,9 @@ class OverlapContact final : public SelfContact<Dim> {
                  const IndexVec<Dim>& period);
 
   void set_cells(Cells cells) override;
-  void find_pairs(const MeshNodes<Dim>& nodes, double skin) override;
-  double skin() const override { return skin_; }
+  void find_pairs(const MeshNodes<Dim>& nodes, std::vector<double> rooms) override;
   double reach() const override { return reach_; }
-  double largest_way(const MeshNodes<Dim>& nodes) const override;
+  double beyond_rooms(const MeshNodes<Dim>& nodes, std::span<const double> ahead) const override;
   void measure(const MeshNodes<Dim>& nodes) override;
 
   void add_forces(NodeFields<Dim>& fields) const override;
@@ -120,11 +119,12 @@ class OverlapContact final : public SelfContact<Dim> {
   bool can_meet(LocalIndex own, LocalIndex other) const;
   bool can_press(const Pair& pair, double way) const;
   void find_boxes();
-  void count_images(std::span<const double> boxes, double skin);
+  void count_images(std::span<const double> boxes);
   Vec<Dim> shift_of(int image) const;
-  std::vector<Ghosts::Peer> add_candidates(double skin);
-  void add_ghosts(std::vector<Ghosts::Peer>& peers, const std::vector<std::vector<double>>& sent);
-  void list_pairs(double skin);
+  std::vector<Ghosts::Peer> add_candidates(std::vector<double>& rooms);
+  void add_ghosts(std::vector<Ghosts::Peer>& peers, const std::vector<std::vector<double>>& sent,
+                  std::vector<double>& rooms);
+  void list_pairs(std::span<const double> rooms);
   void keep_needed(std::vector<Ghosts::Peer> peers);
   void answer(std::vector<Ghosts::Peer>& peers, const std::vector<std::vector<double>>& asked,
               std::vector<Ghosts::Peer>& sides) const;
@@ -209,7 +209,6 @@ class OverlapContact final : public SelfContact<Dim> {
   IndexVec<Dim> periods_ = IndexVec<Dim>::Zero();  ///< that an image may lie away
   double cell_volume_;                             ///< m^3, in the plane m^2, of a cell at rest
   double cell_face_;                               ///< m^2, in the plane m, of a side of it
-  double skin_ = 0;
 
   /// Of this rank's cells, then of the ghosts.
   LaneVector<double> values_;  ///< [n * Overlaps::values], m
@@ -240,6 +239,7 @@ class OverlapContact final : public SelfContact<Dim> {
   std::vector<LocalIndex> first_touch_, next_touch_;
   std::vector<double> motion_;         ///< of the cells' corners, with friction
   std::vector<Vec<Dim>> places_then_;  ///< of nodes, m, when the pairs were found
+  std::vector<double> rooms_then_;     ///< theirs, m
   /// As last counted, while pairs have been found and not measured yet.
   std::vector<double> work_then_;
   double energy_ = 0;  ///< J, of this rank's cells

@@ -43,13 +43,14 @@ class SelfContact {
   /// `find_pairs` follows.
   virtual void set_cells(Cells cells) = 0;
 
-  /// Finds all pairs that can meet before a node has moved by half of `skin`, m. Collective.
-  virtual void find_pairs(const MeshNodes<Dim>& nodes, double skin) = 0;
-  virtual double skin() const = 0;
+  /// Finds all pairs that can meet as long as no corner of a cell goes further than the room that
+  /// one of its nodes has, `rooms` by node, m. Collective.
+  virtual void find_pairs(const MeshNodes<Dim>& nodes, std::vector<double> rooms) = 0;
   /// Way of a corner of a cell over that of its nodes, at most, of all ranks' cells.
   virtual double reach() const = 0;
-  /// The largest way of a corner of this rank's cells since then, m.
-  virtual double largest_way(const MeshNodes<Dim>& nodes) const = 0;
+  /// By how much corners of this rank's cells will have gone beyond their rooms, m, at most, once
+  /// nodes have gone `ahead` from where they are, by node; negative where all stay within.
+  virtual double beyond_rooms(const MeshNodes<Dim>& nodes, std::span<const double> ahead) const = 0;
   /// Overlaps at the present places. Every rank calls it.
   virtual void measure(const MeshNodes<Dim>& nodes) = 0;
 

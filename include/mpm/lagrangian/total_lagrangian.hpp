@@ -98,8 +98,8 @@ class TotalLagrangian final : public Formulation<Dim> {
   void add_loads_on_particles();
   void add_load(const Load<Dim>& load, std::size_t body);
   double way_to_next_check() const;
-  double skin_of_pairs() const;
-  void look_for_pairs(double way);
+  std::vector<double> ways_to_next_check() const;
+  void find_pairs();
   void scale_masses();
   bool cells_may_fail() const { return !setup_.failure.empty(); }
   std::vector<double> remove_failed();
