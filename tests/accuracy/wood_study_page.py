@@ -222,8 +222,8 @@ def strip(pictures, place):
 
 
 def ended_by_settings(study):
-    """The runs that ended, by what varies in them; how many ranks they had does not count."""
-    return {tuple(pair for pair in run["settings"].items() if pair[0] != "ranks"): run
+    """The runs that ended, by what is set in them; how many ranks they had does not count, nor what others set."""
+    return {tuple((key, value) for key, value in run["settings"].items() if key != "ranks" and value is not None): run
             for run in study.record["runs"] if run["state"] == study_facts.OK}
 
 

@@ -53,6 +53,15 @@ class MadeAgain(unittest.TestCase):
         self.assertEqual(modulus, "| modulus | 3 | 2 % | 2 | -3 % | Oak: 1 m/s | 0 |")
         self.assertEqual(toe, "| toe | 1 | 0 % | 0 | +0 % | Oak: 2 m/s | 2 |")
 
+    def test_runs_of_a_part_of_a_study_are_known_by_what_is_set_in_them(self):
+        def ended(settings):
+            return page.ended_by_settings(SimpleNamespace(record={"runs": [
+                {"settings": settings, "state": study_facts.OK}, {"settings": {"speed": "9 m/s"}, "state": "lost"}]}))
+        part = ended({"speed": "1 m/s", "ranks": "2"})
+        whole = ended({"speed": "1 m/s", "depth": None})
+        self.assertEqual((len(part), part.keys()), (1, whole.keys()))
+        self.assertNotEqual(part.keys(), ended({"speed": "1 m/s", "depth": "1 mm"}).keys())
+
     def newer_properties(self, *runs):
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder) / "newer.json"
