@@ -271,12 +271,17 @@ def processor_of(record):
     return record["machine"]["processor"].replace("(R)", "").removesuffix(" Processor")
 
 
+def listed(names):
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
+
+
 def made_again(place):
     """What was made again where, and how far each figure moved over all of these runs: what may stand in braces,
     by names that begin with that of the file."""
     found = runs_of(place)
     named = ", ".join(f"*{title}*" for title in dict.fromkeys(run["study"] for run in found))
-    programs, ranks, processors = (" and ".join(dict.fromkeys(run[what] for run in found))
+    programs, ranks, processors = (listed(dict.fromkeys(run[what] for run in found))
                                    for what in ("program", "ranks", "processor"))
     article = "an" if processors[0] in "AEIO" else "a"
     opening = (f"Of {named} {len(found)} runs were made again by {programs}, on {ranks} rank{'s' * (ranks != '1')} of "
@@ -293,7 +298,7 @@ def made_again(place):
     for name, ways in moved.items():
         sizes = [size for size, *_ in ways]
         _, most, where = max(ways)
-        lines.append([name.replace("_", " "), str(len(sizes)), f"{100 * statistics.median(sizes):.2g} %",
+        lines.append([name.replace("_", " "), str(len(sizes)), f"{round(100 * statistics.median(sizes), 6):.2g} %",
                       f"{sum(size > 0.01 for size in sizes)}", f"{100 * most:+.2g} %", where, str(alone[name])])
     heads = ["figure", "runs", "half moved by less than", "by more than 1 %", "most", "which", "found in one alone"]
     return {f"{place.stem}_opening": opening, f"{place.stem}_runs": str(len(found)),

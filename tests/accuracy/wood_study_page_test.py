@@ -41,13 +41,13 @@ class MadeAgain(unittest.TestCase):
     def test_says_how_far_figures_moved_and_what_one_alone_found(self):
         runs = [self.RUN | {"study": "Oak", "run": f"{k} m/s", "figures": {"modulus": [100.0, repeated], "toe": toe}}
                 for k, (repeated, toe) in enumerate([(100.5, [None, 1.0]), (97.0, [2.0, None]), (102.0, [4.0, 4.0])])]
-        runs[-1]["program"] = "abcdef1"
+        runs[1]["program"], runs[-1]["program"] = "abcdef1", "abcdef2"
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder) / "newer.json"
             place.write_text(json.dumps(runs))
             found = page.made_again(place)
         self.assertEqual(found["newer_opening"],
-                         "Of *Oak* 3 runs were made again by abcdef0 and abcdef1, on 1 rank of an Abacus.")
+                         "Of *Oak* 3 runs were made again by abcdef0, abcdef1 and abcdef2, on 1 rank of an Abacus.")
         self.assertEqual(found["newer_runs"], "3")
         *_, modulus, toe = found["newer"].splitlines()
         self.assertEqual(modulus, "| modulus | 3 | 2 % | 2 | -3 % | Oak: 1 m/s | 0 |")
