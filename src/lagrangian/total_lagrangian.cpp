@@ -175,11 +175,7 @@ void TotalLagrangian<Dim>::check()
   }
   // Until the next check nodes go on, and that one looks as far ahead as the fastest goes until the
   // one after it: all that may meet by then has to be listed.
-  if (contact_ && largest[4] + contact_->reach() * way_to_next_check() > 0) {
-    find_pairs();
-    contact_->measure(*nodes_);
-    contact_->forget_stiffness();
-  }
+  if (contact_ && largest[4] + contact_->reach() * way_to_next_check() > 0) renew_pairs();
   if (setup_.mass_scaling > 0) scale_masses();
 }
 
@@ -248,19 +244,25 @@ void TotalLagrangian<Dim>::scale_masses()
   }
 }
 
-/// Of the fastest node of the last check, in the longest steps: the next ones may be that long
-/// however short the last one was.
+/// In the longest steps: the next ones may be that long however short the last one was.
+template <int Dim>
+double TotalLagrangian<Dim>::time_to_next_check() const
+{
+  return steps_between_checks * std::max(setup_.longest_step, last_step_);
+}
+
+/// Of the fastest node of the last check.
 template <int Dim>
 double TotalLagrangian<Dim>::way_to_next_check() const
 {
-  return steps_between_checks * std::max(setup_.longest_step, last_step_) * fastest_;
+  return time_to_next_check() * fastest_;
 }
 
 /// Of every node, at its present speed.
 template <int Dim>
 std::vector<double> TotalLagrangian<Dim>::ways_to_next_check() const
 {
-  const double time = steps_between_checks * std::max(setup_.longest_step, last_step_);
+  const double time = time_to_next_check();
   std::vector<double> ways;
   for (LocalIndex node = 0; node < nodes_->size(); ++node) {
     const double* u = &fields_->updated[std::size_t(node) * NodeFields<Dim>::record_width];
@@ -274,10 +276,19 @@ template <int Dim>
 void TotalLagrangian<Dim>::find_pairs()
 {
   const double least = least_way * setup_.location_size.minCoeff(),
-               ahead = checks_ahead * contact_->reach();
+               ahead = checks_ahead * contact_->reach(), of_fastest = ahead * way_to_next_check();
   std::vector<double> rooms = ways_to_next_check();
-  for (double& room : rooms) room = std::max(least, ahead * room) + ahead * way_to_next_check();
+  for (double& room : rooms) room = std::max(least, ahead * room) + of_fastest;
   contact_->find_pairs(*nodes_, std::move(rooms));
+}
+
+/// In the middle of a run: what touches has been counted.
+template <int Dim>
+void TotalLagrangian<Dim>::renew_pairs()
+{
+  find_pairs();
+  contact_->measure(*nodes_);
+  contact_->forget_stiffness();
 }
 
 template <int Dim>

@@ -49,9 +49,7 @@ void TotalLagrangian<Dim>::archive(Archive& archive)
   loss_.reset();
   particles_are_present_ = false;
   if (!contact_) return;
-  find_pairs();
-  contact_->measure(*nodes_);
-  contact_->forget_stiffness();
+  renew_pairs();
 }
 
 /// Regrouped, the cells that are this rank's without those that have failed.

@@ -56,9 +56,7 @@ void TotalLagrangian<Dim>::part(std::span<const double> failed_locations)
   list_what_is_left();
   if (contact_) {
     failed_.energy += contact_->energy();
-    find_pairs();
-    contact_->measure(*nodes_);
-    contact_->forget_stiffness();
+    renew_pairs();
     failed_.energy -= contact_->energy();
   }
   // Velocities stand half a step before places: half of the next kick is of the time before, and

@@ -221,6 +221,10 @@ def strip(pictures, place):
     whole.quantize(128).save(place, optimize=True)
 
 
+def kept_study(name):
+    return read_study(FOLDER / name)
+
+
 def ended_by_settings(study):
     """The runs that ended, by what is set in them; how many ranks they had does not count, nor what others set."""
     return {tuple((key, value) for key, value in run["settings"].items() if key != "ranks" and value is not None): run
@@ -235,7 +239,7 @@ def compare(results):
     if not folders:
         sys.exit(f"{results}: holds no study. Name the folder that mpm_study has written.")
     for folder in folders:
-        study, repeated = read_study(FOLDER / folder.name), read_study(folder)
+        study, repeated = kept_study(folder.name), read_study(folder)
         titles.add(study.title)
         places.add(AGAIN if program_of(repeated.record) == program_of(study.record) else NEWER)
         first = ended_by_settings(study)
@@ -261,6 +265,10 @@ def compare(results):
 
 def runs_of(place):
     return json.loads(place.read_text())
+
+
+def newer_runs():
+    return {(run["study"], run["run"]): run for run in runs_of(NEWER)}
 
 
 def program_of(record):
@@ -308,11 +316,11 @@ def made_again(place):
 def changed_verdicts():
     """Of Table 1's properties, by the newer program, its numerical errors and finer cells where they were made
     again, too."""
-    made = {(run["study"], run["run"]): run["figures"] for run in runs_of(NEWER)}
+    made = newer_runs()
     lines, count = [], 0
     for one, later in zip(table_1(), table_1(newer_study), strict=True):
         name, label = TABLE_1[one.wood]
-        if one.measure["name"] not in made.get((read_study(FOLDER / name).title, label), {}):
+        if one.measure["name"] not in made.get((kept_study(name).title, label), {}).get("figures", {}):
             continue
         count += 1
         if later.verdict() != one.verdict():
@@ -327,7 +335,7 @@ def moduli_of_ladders():
     with open(FORMULATIONS, newline="", encoding="utf-8") as file:
         found = {(row["geometry"], row["method"], row["cells"]): row["modulus"] for row in csv.DictReader(file)}
     methods = [(method, cells) for method in ("updated", "total") for cells in ("75", "150", "300")]
-    known = {run["label"]: run["known_modulus"] for run in read_study(FOLDER / "wood_rays").record["runs"]}
+    known = {run["label"]: run["known_modulus"] for run in kept_study("wood_rays").record["runs"]}
     lines = []
     for wood in IN_FORMULATIONS:
         moduli = [found[wood.replace(", ", "_"), *of] for of in methods]
@@ -389,14 +397,9 @@ def carried(value, ladder):
     return value * finest / as_fine, error and value * error / as_fine
 
 
-def kept_study(name):
-    return read_study(FOLDER / name)
-
-
 def newer_study(name):
     """The kept one, with what the newer program has found where it has made runs again."""
-    study = kept_study(name)
-    made = {(run["study"], run["run"]): run for run in runs_of(NEWER)}
+    study, made = kept_study(name), newer_runs()
     for run in study.record["runs"]:
         again = made.get((study.title, study_facts.name_of(study, run)), {})
         run |= {f"value_{figure}": later for figure, (_, later) in again.get("figures", {}).items()}
@@ -439,7 +442,7 @@ def how_well_known():
 def pieces_beside_paper():
     """Mean and standard deviation of Table 1's properties over drawn pieces by the paper's method, the paper's,
     and how far the mean is from it in percent and in such deviations."""
-    studies_of_pieces = [read_study(FOLDER / name) for name in PIECES]
+    studies_of_pieces = [kept_study(name) for name in PIECES]
     paper = {(one.wood, one.measure["name"]): one.known for one in table_1()}
     measures = [measure for measure in study_facts.numbers(studies_of_pieces[0]) if measure["name"] in PROPERTIES]
     lines = []
@@ -466,7 +469,7 @@ def pieces_beside_paper():
 
 def last_levels(name):
     """How far the finest runs of a ladder of all woods are from the next ones."""
-    study = read_study(FOLDER / name)
+    study = kept_study(name)
     measures = study_facts.numbers(study)
     lines = []
     for label in dict.fromkeys(run["label"] for run in study.record["runs"]):

@@ -97,9 +97,11 @@ class TotalLagrangian final : public Formulation<Dim> {
   void lead_rigid_bodies(double dt);
   void add_loads_on_particles();
   void add_load(const Load<Dim>& load, std::size_t body);
+  double time_to_next_check() const;
   double way_to_next_check() const;
   std::vector<double> ways_to_next_check() const;
   void find_pairs();
+  void renew_pairs();
   void scale_masses();
   bool cells_may_fail() const { return !setup_.failure.empty(); }
   std::vector<double> remove_failed();
